@@ -1,7 +1,6 @@
-"""The message of a finding, and that of a report: PASS, FAIL, INCOMPLETE or ERROR, and why. Every
-format prints these, and none composes its own.
-
-The words are those of the exit codes 0, 1, 3 and 2. A proven fault is a FAIL beside errors, too.
+"""The message of a finding, and that of a report: its verdict, PASS, FAIL or INCOMPLETE, and why.
+Every format prints these, and none composes its own. The command says ERROR instead where an input
+could not be used, as its exit code does.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck.audit.words import (
-    after_rounding,
+    about,
     bounds,
     counted,
     in_motion,
@@ -38,8 +37,18 @@ if TYPE_CHECKING:
     from satcheck.report.report import BodyAnswer, Finding, Issue, Report
     from satcheck.report.statics import Statics
 
-# Failing pairs that are named, the worst first.
-NAMED = 3
+# Letters of what fails: with the next step that is two rows of 80.
+_MOST = 140
+NAMED = 3  # undecided pairs that a baseline accepts
+# What one pair does, and what several do.
+_VERBS = {
+    "overlap": ("overlaps", "overlap"),
+    "possibly": ("possibly overlaps", "possibly overlap"),
+    "motion": ("hits in motion", "hit in motion"),
+    "clearance": ("is too close", "are too close"),
+    "touch": ("touches", "touch"),
+    "undecided": ("is undecided", "are undecided"),
+}
 _OVERLAP = {
     "penetrating": "{} and {} overlap",
     "contains": "{} contains {}",
@@ -60,26 +69,30 @@ def with_messages(report: Report) -> Report:
 
 
 def nothing_checked(issues: Iterable[Issue]) -> list[str]:
-    """`No pair was checked: 1 within one link.`, where that is so."""
-    said = [issue.message for issue in issues if issue.code == NOTHING_TO_CHECK]
-    return [f"{text[0].upper()}{text[1:]}." for text in said]
+    """Return `no pair was checked: 1 within one link.`, where that is so."""
+    return [f"{issue.message}." for issue in issues if issue.code == NOTHING_TO_CHECK]
 
 
 def verdict_line(report: Report) -> str:
-    """`PASS: no collision.`, `FAIL: box and lid overlap (thickness 0.5 mm, 1 mm to pull apart).`"""
-    errors, left_open = _errors(report), _left_open(report)
-    unchecked = nothing_checked(report.issues)
-    if report.summary.verdict == "fail":
+    """Return `PASS: no collision.`, `FAIL: box and lid overlap (1 mm to pull apart).`"""
+    verdict, errors, left_open = report.summary.verdict, _errors(report), _left_open(report)
+    word, unchecked = f"{verdict.upper()}:", nothing_checked(report.issues)
+    if verdict == "fail":
         more = [*left_open, *_unmeasured(report), *errors]
-        return " ".join([f"FAIL: {_failed(report)}.", *map(_sentence, more)])
-    if report.summary.verdict == "pass" and not errors:
-        return " ".join(["PASS:", *(unchecked or [f"{_passed(report)}."])])
-    word = "ERROR" if errors else "INCOMPLETE"
+        return " ".join([word, f"{_failed(report)}.", *map(_sentence, more)])
     if unchecked:
-        return " ".join([f"{word}:", *unchecked, *map(_sentence, errors)])
+        return " ".join([word, *unchecked, *map(_sentence, errors)])
+    if verdict == "pass":
+        return f"{word} {'; '.join([*errors, _passed(report)])}."
     if left_open:
         left_open[0] = f"{_no_collision(report)}, but {left_open[0]}"
-    return f"{word}: {'; '.join([*left_open, *errors]) or 'not everything was checked'}."
+    return f"{word} {'; '.join([*left_open, *errors]) or 'not everything was checked'}."
+
+
+def of_command(report: Report) -> str:
+    """Return the message of the report with the word of the exit code."""
+    _, colon, said = report.message.partition(":")
+    return f"ERROR{colon}{said}" if _errors(report) else report.message
 
 
 def _passed(report: Report) -> str:
@@ -128,12 +141,15 @@ def failing(report: Report) -> list[Finding]:
 
 
 def _failed(report: Report) -> str:
+    """Return `6 of 21 pairs overlap, 1 is too close; worst: box and lid overlap (thickness 1
+    mm)`."""
     worst = failing(report)
-    said = [_clause(finding, report) for finding in worst[:NAMED]]
-    if more := len(worst) - len(said):
-        said.append(f"and {counted(more, 'more pair')}")
-    if report.answers:
-        said += _unmet(report)
+    said = [_kinds(worst, report)] if worst else []
+    if worst:
+        first = clause(worst[0], report, brief=True)
+        named = [first] if len(worst) == 1 else [*said, f"worst: {first}"]
+        said = named if len("; ".join(named)) <= _MOST else said
+    said += _unmet(report)
     if worst and all(finding.severity != "error" for finding in worst):
         said.append(f"failed by --fail-on {report.settings.fail_on}")
     return "; ".join(said)
@@ -153,15 +169,23 @@ def _unmeasured(report: Report) -> list[str]:
     return [f"{said}; --depth measures all"]
 
 
+def _kinds(worst: Iterable[Finding], report: Report) -> str:
+    """Return `6 of 21 pairs overlap, 1 is too close`."""
+    kinds = Counter("possibly" if _is_unsure(f, report) else kind_of(f) for f in worst)
+    total = f" of {counted(report.summary.pairs.total, 'pair')}"
+    said: list[str] = []
+    for kind, verbs in _VERBS.items():
+        if count := kinds[kind]:
+            said.append(f"{count:,}{'' if said else total} {verbs[count > 1]}")
+    return ", ".join(said)
+
+
 def _unmet(report: Report) -> list[str]:
-    """Return a message about each of the first failing bodies."""
-    said: dict[str, str] = {}
-    for answer in report.answers:
-        if is_unmet(answer, report.settings.fail_on):
-            said.setdefault(answer.body, answer_message(answer))
-    failed, more = list(said.values()), len(said) - NAMED
+    """Return a message about the first failing body, and the number of the others."""
+    unmet = [answer for answer in report.answers if is_unmet(answer, report.settings.fail_on)]
+    more = len({answer.body for answer in unmet}) - 1
     rest = [f"and {counted(more, 'more body', 'more bodies')}"] if more > 0 else []
-    return failed[:NAMED] + rest
+    return [answer_message(answer) for answer in unmet[:1]] + rest
 
 
 def answer_message(answer: BodyAnswer) -> str:
@@ -175,11 +199,11 @@ def answer_message(answer: BodyAnswer) -> str:
 def finding_message(finding: Finding, report: Report) -> str:
     """Return `box and lid overlap (thickness 0.5 mm, 1 mm to pull apart); moving box by (-1, 0, 0)
     ends the overlap.`"""
-    text, swept = _clause(finding, report), finding.motion
+    text, swept = clause(finding, report), finding.motion
     if swept and not _hits_only(finding) and swept.relation not in ("separated", finding.at_rest):
-        text += f"; while they move: {in_motion(finding, unit_of(report.units))}"
+        text += f"; in motion: {in_motion(finding, unit_of(report.units))}"
     if finding.mtv is not None and finding.mtv_verified:
-        way = f"{vector(finding.mtv)}{after_rounding(finding.mtv)}"
+        way = f"{about(finding.mtv)}{vector(finding.mtv)}"
         text += f"; moving {finding.a} by {way} ends the overlap"
     if finding.baseline_state is not None:
         unproven = ""
@@ -197,7 +221,7 @@ def measured(finding: Finding, unit: str | None) -> str:
     if finding.distance is not None:
         parts.append(f"gap {with_unit(number(finding.distance), unit)}")
     if moving := in_motion(finding, unit):
-        parts.append(f"while moving: {moving}")
+        parts.append(f"in motion: {moving}")
     return ", ".join(parts)
 
 
@@ -211,13 +235,13 @@ def kind_of(finding: Finding) -> str:
     return "touch" if finding.relation == "touching" and finding.rule is None else "clearance"
 
 
-def _clause(finding: Finding, report: Report) -> str:
-    """Return `fence and palm are 40 mm apart (clearance 45 mm)`."""
+def clause(finding: Finding, report: Report, *, brief: bool = False) -> str:
+    """Return `fence and palm are 40 mm apart (clearance 45 mm)`. brief: without joints."""
     unit, pair = unit_of(report.units), f"{finding.a} and {finding.b}"
     if _hits_only(finding):
         joints = finding.motion and finding.motion.joints
-        where = f" ({joint_values(joints)})" if joints else ""
-        return f"{pair}, while they move: {in_motion(finding, unit)}{where}"
+        where = f" ({joint_values(joints)})" if joints and not brief else ""
+        return f"{finding.a} {in_motion(finding, unit, f' {finding.b}')}{where}"
     figures = limits(finding, report)
     if finding.at_rest in OVERLAPS:
         figures = [*_figures(finding, unit), *figures]
@@ -235,9 +259,15 @@ def _hits_only(finding: Finding) -> bool:
 def _overlap(finding: Finding, report: Report) -> str:
     if finding.quality != "estimate":
         return _OVERLAP[finding.at_rest].format(finding.a, finding.b)
+    possibly = "possibly " if _is_unsure(finding, report) else ""
+    return f"{finding.a} and {finding.b} {possibly}overlap"
+
+
+def _is_unsure(finding: Finding, report: Report) -> bool:
+    """Return whether it is not proven that the bodies overlap at all."""
     settings = report.settings
     is_sure = settings.accuracy == "exact" and not settings.allow_open
-    return f"{finding.a} and {finding.b} {'' if is_sure else 'possibly '}overlap"
+    return finding.quality == "estimate" and finding.at_rest in OVERLAPS and not is_sure
 
 
 def _figures(finding: Finding, unit: str | None) -> list[str]:

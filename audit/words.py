@@ -1,11 +1,13 @@
 """Words about one thing in a report: a number, a count, a figure, a motion, a limit; and the order
-of findings, the worst first. Numbers have six significant digits; the JSON report has all of
-them."""
+of findings, the worst first. Numbers have three significant digits, and all digits before the
+point; the JSON report has all of them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_UP, Decimal
+from itertools import takewhile
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -22,9 +24,11 @@ if TYPE_CHECKING:
     from satcheck.report.sweep import Joints, Place
     from satcheck.report.values import Interval
 
-DIGITS = 6
-# Relative. A bound this close to its six digits is shown as these: the last place of a float64
-# computation is not worth a whole unit in the sixth digit.
+DIGITS = 3
+# Between these a number is written without an exponent.
+_SMALL, _LARGE = 1e-4, 1e6
+# Relative. A bound this close to its rounded digits is shown as these: the last place of a float64
+# computation is not worth a whole unit in the last digit.
 ROUNDOFF = 1e-12
 # A lower bound below this share of the upper one is left out: it tells a person nothing.
 NEGLIGIBLE = 1e-3
@@ -35,23 +39,45 @@ _MILDER: tuple[Relation, ...] = ("indeterminate", "touching", "near", "separated
 
 def number(value: float) -> str:
     """Rounded to nearest."""
-    return f"{value + 0.0:.{DIGITS}g}"
+    value += 0.0
+    is_whole = 10**DIGITS - 0.5 <= abs(value) < _LARGE
+    return f"{value:.0f}" if is_whole else f"{value:.{DIGITS}g}"
+
+
+def stated(value: float) -> str:
+    """Return a number that a person has chosen: none of the digits that he gave is lost."""
+    return f"{value + 0.0:.12g}"
 
 
 def bounds(low: float, high: float) -> str:
-    """A proven interval, rounded outward, so that what is shown is still true (to ROUNDOFF)."""
-    shown = (_rounded(low, down=True), _rounded(high, down=False))
-    return shown[0] if shown[0] == shown[1] else " .. ".join(shown)
+    """Return `0.504 ±0.003`: a middle and a half-width that contain the proven interval, or one
+    number where the figure is exact."""
+    if high - low <= EXACT_WIDTH * abs(high):
+        return number(high)
+    least, most = Decimal(low), Decimal(high)
+    size = max(abs(low / 2 + high / 2), high / 2 - low / 2)
+    last = Decimal(1).scaleb(_last_place(size))
+    middle = ((least + most) / 2).quantize(last)
+    half = max(middle - least, most - middle).quantize(last, ROUND_UP)
+    if _SMALL <= size < _LARGE:
+        return f"{middle:f} ±{half:f}"
+    return f"{number(float(middle))} ±{number(float(half))}"
+
+
+def _last_place(value: float) -> int:
+    """Return the power of ten of the last digit that `number` shows."""
+    place = math.floor(math.log10(value)) - DIGITS + 1
+    return place if value >= _LARGE else min(place, 0)
 
 
 def at_least(value: float) -> str:
     """A proven lower bound, rounded down (to ROUNDOFF)."""
-    return _rounded(value, down=True)
+    return _rounded(value, ROUND_FLOOR)
 
 
 def at_most(value: float) -> str:
     """A proven upper bound, rounded up (to ROUNDOFF)."""
-    return _rounded(value, down=False)
+    return _rounded(value, ROUND_CEILING)
 
 
 def vector(values: tuple[float, float, float]) -> str:
@@ -59,19 +85,16 @@ def vector(values: tuple[float, float, float]) -> str:
     return f"({', '.join(_components(values))})"
 
 
-def after_rounding(values: tuple[float, float, float] | None) -> str:
-    """` after rounding` where `vector` does not show the numbers themselves, else nothing."""
-    if values is None or tuple(map(float, _components(values))) == values:
-        return ""
-    return " after rounding"
+def about(values: tuple[float, float, float] | None) -> str:
+    """Return `about ` where `vector` does not show the numbers themselves, else nothing."""
+    return "" if values is None or tuple(map(float, _components(values))) == values else "about "
 
 
 def _components(values: tuple[float, float, float]) -> list[str]:
     longest = max(abs(value) for value in values)
     if longest == 0:
         return ["0", "0", "0"]
-    places = DIGITS - 1 - math.floor(math.log10(longest))
-    return [number(round(value, places)) for value in values]
+    return [number(round(value, -_last_place(longest))) for value in values]
 
 
 def duration(microseconds: float) -> str:
@@ -82,13 +105,12 @@ def duration(microseconds: float) -> str:
     return f"{microseconds * 1e-6:.3g} s"
 
 
-def _rounded(value: float, *, down: bool) -> str:
+def _rounded(value: float, outward: str) -> str:
     text = number(value)
-    outward = value - float(text) if down else float(text) - value
-    if outward >= -ROUNDOFF * abs(value):
+    if abs(float(text) - value) <= ROUNDOFF * abs(value):
         return text
-    step = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
-    return number(value - step if down else value + step)
+    last = Decimal(1).scaleb(_last_place(abs(value)))
+    return number(float(Decimal(value).quantize(last, outward)))
 
 
 def counted(count: int, singular: str, plural: str | None = None) -> str:
@@ -105,9 +127,7 @@ def interval(proven: Interval | None, *, bounded: str = "<= ") -> str:
     if proven is None:
         return ""
     low, high = proven
-    if high - low <= EXACT_WIDTH * high:
-        return number(high)
-    return bounded + at_most(high) if low <= NEGLIGIBLE * high else bounds(low, high)
+    return bounded + at_most(high) if low <= NEGLIGIBLE * high < high else bounds(low, high)
 
 
 def is_unusable(body: BodyReport) -> bool:
@@ -126,9 +146,9 @@ def is_hit(finding: Finding) -> bool:
     return finding.motion is not None and finding.motion.relation == "penetrating"
 
 
-def in_motion(finding: Finding, unit: str | None) -> str:
-    """`hits at 60 deg, near (1.5, 2, 0)`, `0.25 mm apart`, `apart`, `touches`,
-    `undecided from t = 0.4`; empty where neither body moves."""
+def in_motion(finding: Finding, unit: str | None, whom: str = "") -> str:
+    """Return `hits at 60 deg, near (1.5, 2, 0)`, `0.25 mm apart`, `apart`, `touches`,
+    `undecided from t = 0.4`; empty where neither body moves. whom: is hit."""
     swept = finding.motion
     if swept is None:
         return ""
@@ -136,7 +156,7 @@ def in_motion(finding: Finding, unit: str | None) -> str:
         verb = "hits" if swept.proven else "possibly hits"
         on_path = "" if swept.poses is None else between_poses(*swept.poses)
         near = "" if swept.point is None else f", near {vector(swept.point)}"
-        return f"{verb} at {', '.join(place(one, unit) for one in swept.at)}{on_path}{near}"
+        return f"{verb}{whom} at {', '.join(place(one, unit) for one in swept.at)}{on_path}{near}"
     if swept.relation == "indeterminate":
         return f"undecided from t = {number(swept.reached)}"
     if swept.relation == "touching":
@@ -202,20 +222,37 @@ def limits(finding: Finding, report: Report) -> list[str]:
             if option in deciding
         }
     return [
-        f"{name} {with_unit(number(limit), unit and unit + power)}"
+        f"{name} {with_unit(stated(limit), unit and unit + power)}"
         for name, (limit, power) in asked.items()
         if limit is not None
     ]
 
 
 def with_titles(report: Report) -> Report:
-    """The report with `name (id)` for the id of each node of a file whose name is not its id, for
-    reading only."""
+    """Return the report with `name (id)` for the id of each node of a file whose name is not its
+    id, for reading only."""
     shown = {
         body.id: f"{body.name} ({body.id})"
         for body in report.bodies
         if body.path is not None and body.name != body.id
     }
+    return _renamed(report, shown)
+
+
+def common_root(names: Collection[str]) -> str:
+    """Return the beginning of all names, up to a `/`; "" for none."""
+    ends = zip(min(names, default=""), max(names, default=""), strict=False)
+    same = "".join(a for a, _ in takewhile(lambda pair: pair[0] == pair[1], ends))
+    return same[: same.rfind("/") + 1]
+
+
+def without_root(report: Report, root: str) -> Report:
+    """Return the report with names that do not begin with the root, for reading only."""
+    names = (body.id for body in report.bodies)
+    return _renamed(report, {name: name.removeprefix(root) for name in names if root})
+
+
+def _renamed(report: Report, shown: Mapping[str, str]) -> Report:
     if not shown:
         return report
     return replace(

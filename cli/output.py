@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from satcheck.report.report import Issue
     from satcheck.scene import Issue as InputIssue
 
-# Wide enough that no cell is ever folded where no terminal sets a width (rich would assume 80).
-UNBOUNDED_WIDTH = 100_000
+# Where neither COLUMNS nor a terminal sets a width.
+PIPE_WIDTH = 120
 # A reader that left early: EPIPE, and EINVAL as Windows calls it.
 _READER_LEFT = (errno.EPIPE, errno.EINVAL)
 _STANDARD_OUTPUT = ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
@@ -39,7 +39,7 @@ class Page(NamedTuple):
     unicode: bool
 
 
-PLAIN_PAGE = Page(width=UNBOUNDED_WIDTH, colour=False, unicode=True)
+PLAIN_PAGE = Page(width=PIPE_WIDTH, colour=False, unicode=True)
 # A document as it is drawn for a page: one text or its pieces.
 Render = Callable[[Page], str | bytes | Iterable[str]]
 
@@ -171,11 +171,15 @@ def _talk_descriptor() -> int:
     return 2
 
 
-def _columns() -> int:
-    """Of the terminal; its compression libraries make shutil slow to import."""
-    from shutil import get_terminal_size
-
-    return get_terminal_size().columns
+def _columns(stream: TextIO) -> int:
+    """Return COLUMNS, or else the width of the terminal. shutil does so, but is slow to import."""
+    columns = os.environ.get("COLUMNS", "")
+    if columns.isdecimal() and int(columns):
+        return int(columns)
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or PIPE_WIDTH
+    except (OSError, ValueError):
+        return PIPE_WIDTH
 
 
 def _wants_colour(terminal: bool) -> bool:
@@ -195,7 +199,7 @@ def _page(stream: TextIO) -> Page:
     terminal = stream.isatty()
     encoding = (stream.encoding or "").lower().replace("-", "").replace("_", "")
     return Page(
-        width=_columns() if terminal else UNBOUNDED_WIDTH,
+        width=_columns(stream),
         colour=_wants_colour(terminal),
         unicode=encoding.startswith("utf"),
     )

@@ -11,9 +11,10 @@ import click
 from msgspec import Struct
 
 from satcheck.audit import Report
+from satcheck.audit.messages import of_command
 from satcheck.audit.words import counted, with_titles
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.summary import counts_line, next_step
+from satcheck.cli.formats.summary import MESHES, counts_line, next_step
 from satcheck.cli.inputs import Inputs, is_same_file, refuse_early
 from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
 from satcheck.report.json import document as json_document
@@ -85,17 +86,18 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
     if isinstance(result, SamplesReport):
         from satcheck.cli.formats.samples import samples_counts, samples_verdict
 
-        talk(samples_counts(result))
-        summary = samples_verdict(result)
+        counts, summary = samples_counts(result), samples_verdict(result)
     else:
         result = in_one_line_each(with_titles(result))
-        summary = " ".join([result.message, *next_step(result, written=True)])
-        warnings = [issue for issue in result.issues if issue.severity == "warning"]
-        for issue in warnings[:WARNINGS]:
-            talk(f"satcheck: {issue_line(issue)}")
-        if len(warnings) > WARNINGS:
-            talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
-        talk(counts_line(result))
+        counts = counts_line(result)
+        summary = " ".join([of_command(result), *next_step(result, written=True)])
+    warnings = [issue for issue in result.issues if issue.severity == "warning"]
+    warnings.sort(key=lambda issue: issue.code in MESHES)  # the least grave
+    for issue in warnings[:WARNINGS]:
+        talk(f"satcheck: {issue_line(issue)}")
+    if len(warnings) > WARNINGS:
+        talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
+    talk(counts)
     talk(f"{summary} {files}")
 
 

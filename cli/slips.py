@@ -12,18 +12,26 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
+from operator import mul
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from satcheck.cli.commands import COMMANDS, is_command
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.readers import mesh_reader, options
+from satcheck.scene.loader import is_mesh
 from satcheck.scene.opening import exists, is_file, is_folder
 
 if TYPE_CHECKING:
     import click
 
+    from satcheck.scene import Scene
+    from satcheck.scene.bodies import Body
+
+# From so many mesh files on they may be assets, and not parts.
+FEWEST_ASSETS = 4
 # More files than this make no line that anybody copies.
 MOST_FILES = 8
 # So many bad paths get advice; the others are errors alone.
@@ -116,6 +124,37 @@ def about_paths(paths: Sequence[str]) -> list[Advice]:
         purpose = f"{twice} is given twice, so its bodies coincide. To check its pieces"
         advice.append(Advice(purpose, pieces))
     return advice
+
+
+def about_assets(paths: Sequence[str], scene: Scene) -> list[Advice]:
+    """Of mesh files most of which hold the origin, as files of assets do. Parts of one assembly
+    stand beside each other."""
+    if len(paths) < FEWEST_ASSETS or not all(map(is_mesh, paths)):
+        return []
+    around: dict[str, bool] = {}
+    for body in scene.bodies:
+        around[body.file.path] = around.get(body.file.path, False) or _holds_origin(body)
+    if 2 * sum(around.values()) <= len(around):
+        return []
+    folders = {os.path.dirname(path) or "." for path in paths}  # noqa: PTH120  as it was given
+    purpose = f"{sum(around.values()):,} of {len(around):,} files lie around the origin. "
+    files = [*folders] if len(folders) == 1 else sys.argv[1:]
+    return [Advice(f"{purpose}If each file is an asset of its own", _line(["batch", *files]))]
+
+
+def _holds_origin(body: Body) -> bool:
+    """Return whether the box of the body holds the origin, or misses it by a tenth of its size, as
+    that of a thing that stands on the ground may."""
+    low, high = body.file.mesh.bounds
+    placed = body.transform or IDENTITY
+    rows = [placed[at : at + 4] for at in (0, 4, 8)]
+    middle = [*((a + b) / 2 for a, b in zip(low, high, strict=True)), 1.0]
+    half = [(b - a) / 2 for a, b in zip(low, high, strict=True)]
+    centre = [sum(map(mul, row, middle)) for row in rows]
+    reach = [
+        sum(abs(factor) * size for factor, size in zip(row, half, strict=False)) for row in rows
+    ]
+    return all(abs(c) <= r + max(reach) / 5 for c, r in zip(centre, reach, strict=True))
 
 
 def about_one_body(path: str, components: int) -> list[Advice]:

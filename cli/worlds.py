@@ -83,7 +83,8 @@ def check_worlds(
     least: AssetVerdict = "incomplete" if interrupted or empty else "pass"
     seen = overview(assets, interrupted or (*empty, *unused), least=least, top=delivery.top)
     _deliver(document, seen, assets, delivery)
-    _tell(seen, assets, None if delivery.quiet else delivery.output)
+    if delivery.form != "table" or delivery.output is not None or delivery.quiet:
+        _tell(seen, assets, None if delivery.quiet else delivery.output)
     if interrupted:
         talk(f"satcheck: {interrupted[0].message}")
         return exit_codes.INTERRUPTED
@@ -171,8 +172,8 @@ def _deliver(document: Document, seen: Overview, assets: Sequence[Asset], to: De
 
 
 def _tell(seen: Overview, assets: Sequence[Asset], output: Path | None) -> None:
-    """Errors on stderr; with -o also the warnings about all assets, the summary, and where the
-    report is."""
+    """Say errors on stderr, which a table has in its rows; with -o also the warnings about all
+    assets, the summary, and where the report is."""
     for each in assets:
         for issue in each.report.issues:
             if issue.severity == "error":

@@ -252,13 +252,12 @@ def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
         warnings.append(("cracks", f"{cracks} no wider than the precision of the file: closed"))
     if health.holes:
         holes, size = _count(health.holes, "hole"), f"{health.largest_hole:.3g}"
-        largest = "" if health.holes == 1 else "the largest "
-        extent = f"{largest}in a box {size} from corner to corner"
-        beside = "next to a hole nothing is inside or outside"
-        warnings.append(("not-closed", f"{holes}, {extent}: {beside}"))
+        largest = "" if health.holes == 1 else "largest "
+        warnings.append(("not-closed", f"open mesh ({holes}, {largest}{size} across)"))
     elif health.boundary_edges and not health.closed:
         edges = _count(health.boundary_edges, "boundary edge")
-        warnings.append(("not-closed", f"{edges}, all of flat parts: sheets, which have no inside"))
+        sheets = f"open mesh ({edges}, all of flat parts: sheets, which have no inside)"
+        warnings.append(("not-closed", sheets))
     if health.double_sided:
         warnings.append(("double-sided", f"every face exists in both orientations: {sheet}"))
     elif health.nonmanifold_edges:

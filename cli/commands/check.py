@@ -27,7 +27,7 @@ from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import ALL, function_of, kind_of
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.option import length, settings_of
-from satcheck.cli.output import Document
+from satcheck.cli.output import Document, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import (
     Delivery,
@@ -248,6 +248,11 @@ def command(
     document = Document()
     scene = load(inputs, hashed=form == "json")
     _collect_garbage(scene)
+    if len(inputs.paths) > 2:
+        from satcheck.cli.slips import about_assets
+
+        for advice in about_assets(inputs.paths, scene):
+            talk(str(advice))
     failed = any(issue.severity == "error" for issue in scene.issues)
     if failed and len(scene.bodies) < 2 and form == "table":
         return exit_codes.ERROR  # every pair would be an empty row, and the error is told

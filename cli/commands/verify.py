@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from satcheck.audit.words import counted, number
+from satcheck.audit.words import at_most, counted
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
@@ -160,6 +160,6 @@ def _summary(result: VerificationReport) -> str:
     errors = [f.distance_error for f in accepted if f.distance_error is not None]
     if errors:
         distances = counted(len(errors), "distance", "distances")
-        proven.append(f"{distances} to within {number(max(errors))}" if any(errors) else distances)
+        proven.append(f"{distances} to within {at_most(max(errors))}" if any(errors) else distances)
     extra = f" Also proven: {', '.join(proven)}." if proven else ""
     return ", ".join(parts) + "." + extra

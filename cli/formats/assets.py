@@ -1,4 +1,5 @@
-"""The reports of many assets as a table: a row for each, the worst first, and the count of them."""
+"""The reports of many assets as a table: a row for each that does not pass, the worst first, and
+the count of all."""
 
 from __future__ import annotations
 
@@ -12,8 +13,9 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 from msgspec import Struct, field
 
+from satcheck.audit.messages import clause, failing
 from satcheck.audit.summary import tool
-from satcheck.audit.words import counted, rank
+from satcheck.audit.words import common_root, counted, rank, with_titles
 from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import BesideBaseline, config_lines
@@ -21,8 +23,11 @@ from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
     GREEN,
+    ROWS,
     Column,
+    all_begin,
     fitted_each,
+    hidden,
     joined,
     table,
 )
@@ -49,8 +54,14 @@ _STYLES = {
 }
 
 
-# Passing assets are listed up to this many assets.
-LISTED = 60
+_WORDS: dict[AssetVerdict, str] = {
+    "error": "ERROR",
+    "fail": "FAIL",
+    "incomplete": "INCOMPLETE",
+    "pass": "PASS",
+}
+# Letters of the summary with names: two rows of 80.
+_MOST = 160
 # So many are named in the summary.
 NAMED = 3
 
@@ -82,18 +93,15 @@ def written(
         return render_assets(seen.report(), assets, timings=timings)
     if kind_of(form) == "reports":
         return pieces(assets, form)
-    return render(seen, page) if seen.total or seen.issues else "PASS: 0 assets.\n"
+    return render(seen, page)
 
 
 def render(seen: Overview, page: Page) -> str:
     """Return the whole text, final newline included."""
-    said = []
-    if hidden := seen.listed - len(seen.shown):
-        said.append(f"{counted(hidden, 'more asset')} not shown (--top {len(seen.shown)})")
-    if passing := seen.total - seen.listed:
-        said.append(f"{counted(passing, 'more asset')} {'passes' if passing == 1 else 'pass'}")
-    said += [*map(issue_line, seen.issues), *seen.config, summary_line(seen)]
-    lines = _table(seen.shown, page) if seen.shown else []
+    root = common_root([asset.file for asset in seen.shown])
+    said = hidden(seen.listed - len(seen.shown), "asset") + all_begin(root)
+    said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen)]
+    lines = _table(seen.shown, root, page) if seen.shown else []
     return joined([*lines, *fitted_each(said, page)], page)
 
 
@@ -104,10 +112,23 @@ def tell_issues(seen: Overview) -> None:
 
 
 def summary_line(seen: Overview) -> str:
-    """`FAIL: 39 assets: 1 has errors (c.glb), 2 fail (a.glb, b.glb), 36 pass.`"""
-    counts = seen.counts
-    unsure = "ERROR" if seen.has("error") else "INCOMPLETE"
-    word = "PASS" if seen.verdict == "pass" else "FAIL" if counts["fail"] else unsure
+    """`FAIL: 39 assets: 2 fail (a.glb, b.glb), 37 pass. Next: satcheck a.glb lists its pairs.`"""
+    return " ".join(_summary(seen))
+
+
+def _summary(seen: Overview) -> list[str]:
+    line = _counts(seen, names=True)
+    line = line if len(line) <= _MOST else _counts(seen, names=False)
+    unchecked = counted(seen.unchecked, "passing asset")
+    ruled = [f"No pair of {unchecked} was checked: rules allow them all."] if seen.unchecked else []
+    return [line, *ruled, *seen.beside.lines(), *_next_step(seen)]
+
+
+def _counts(seen: Overview, *, names: bool) -> str:
+    counts, total = seen.counts, counted(seen.total, "asset")
+    nothing = "of one body each: nothing to compare"
+    if seen.verdict == "pass" and seen.lone == seen.total:
+        return f"PASS: {total}{f' ({nothing})' if seen.total else ''}."
     words: dict[AssetVerdict, str] = {
         "error": "have errors" if counts["error"] > 1 else "has errors",
         "fail": "fail" if counts["fail"] > 1 else "fails",
@@ -115,19 +136,14 @@ def summary_line(seen: Overview) -> str:
         "pass": "pass" if counts["pass"] > 1 else "passes",
     }
     parts = [
-        f"{counts[verdict]:,} {said}{_named(seen, verdict)}"
+        f"{counts[verdict]:,} {said}{_named(seen, verdict) if names else ''}"
         for verdict, said in words.items()
         if counts[verdict]
     ]
-    line = f"{': '.join([word, counted(seen.total, 'asset'), *filter(None, [', '.join(parts)])])}."
-    return " ".join([line, *_by_rules(seen), *seen.beside.lines(), *_next_step(seen)])
-
-
-def _by_rules(seen: Overview) -> list[str]:
-    """`No pair of 1 passing asset was checked: rules allow them all.`"""
-    named, lone = counted(seen.unchecked, "passing asset"), counted(seen.lone, "passing asset")
-    said = [f"No pair of {named} was checked: rules allow them all."] if seen.unchecked else []
-    return said + ([f"Nothing to compare in {lone}: one body or none."] if seen.lone else [])
+    if seen.lone:
+        some = "" if seen.lone == counts["pass"] else f"{seen.lone:,} "
+        parts[-1] += f" ({some}{nothing})"
+    return f"{_WORDS[seen.verdict]}: {': '.join([total, *filter(None, [', '.join(parts)])])}."
 
 
 def _next_step(seen: Overview) -> list[str]:
@@ -145,7 +161,7 @@ def _next_step(seen: Overview) -> list[str]:
 def _check_of(file: str) -> str:
     """With the options of this call, if a command renders."""
     ctx = click.get_current_context(silent=True)
-    if ctx is None or ctx.info_name != "each":
+    if ctx is None or ctx.info_name not in ("batch", "each"):
         return f"satcheck {shlex.quote(file)}"
     from satcheck.cli.slips import check_of
 
@@ -159,35 +175,35 @@ def _named(seen: Overview, verdict: AssetVerdict) -> str:
     return f" ({', '.join(files[:NAMED])}{more})" if files else ""
 
 
-def _table(assets: list[Asset], page: Page) -> list[str]:
-    cells = zip(*map(cells_of, assets), strict=True)
-    file, verdict, bodies, pairs, worst = cells
+def _table(assets: list[Asset], root: str, page: Page) -> list[str]:
+    file, verdict, pairs, worst = zip(*map(cells_of, assets), strict=True)
     columns = (
-        Column("asset", file, named=True),
+        Column("asset", tuple(name.removeprefix(root) for name in file), named=True),
         Column("verdict", verdict, graded=True),
-        Column("bodies", bodies, right=True),
-        Column("pairs", pairs, right=True),
+        Column("fail", pairs, right=True),
         Column("worst", worst, folds=True),
     )
     return table(columns, page, [_STYLES[asset.verdict] for asset in assets])
 
 
-def cells_of(asset: Asset) -> tuple[str, ...]:
-    """The asset, its verdict, bodies and pairs, and its worst problem."""
-    report, listed = asset.report, _listed(asset)
+def cells_of(asset: Asset) -> tuple[str, str, str, str]:
+    """Return the asset, its verdict, how many of its pairs fail, and its worst problem."""
+    report = with_titles(asset.report)
+    failed, total = failing(report), asset.report.summary.pairs.total
+    pairs = f"{len(failed):,} of {total:,}" if total else ""
+    if failed:
+        return asset.file, asset.verdict, pairs, clause(failed[0], report, brief=True)
+    listed = _listed(asset)
     more = f" (and {len(listed) - 1:,} more)" if len(listed) > 1 else ""
-    worst = f"{listed[0].message}{more}" if listed else ""
-    pairs = f"{report.summary.pairs.total:,}"
-    return (asset.file, asset.verdict, f"{len(report.bodies):,}", pairs, worst)
+    return asset.file, asset.verdict, pairs, f"{listed[0].message}{more}" if listed else ""
 
 
 def _listed(asset: Asset) -> list[Problem]:
-    """What the row of an asset tells, the worst first; of an incomplete one, first what is open."""
-    told = problems({asset.file: asset.report})
-    listed = [p for p in told if p.level != "note" or p.kind in _OPEN]
-    if asset.verdict == "incomplete":
-        listed.sort(key=lambda p: p.kind not in _OPEN)
-    return listed
+    """Return what the row of an asset tells, the worst first: why it does not pass."""
+    listed = [p for p in problems({asset.file: asset.report}) if p.level != "note"]
+    listed.sort(key=lambda p: p.level != "error" and p.kind not in _OPEN)
+    why = [p for p in listed if p.level == "error" or p.kind in _OPEN]
+    return why or listed
 
 
 class Overview(Struct):
@@ -229,7 +245,7 @@ class Overview(Struct):
     @property
     def listed(self) -> int:
         """The number of assets for a table."""
-        return self.total if self.total <= LISTED else self.total - self.counts["pass"]
+        return self.total - self.counts["pass"]
 
     @property
     def total(self) -> int:
@@ -259,11 +275,10 @@ def overview(
     least: AssetVerdict = "pass",
     top: int | None = None,
 ) -> Overview:
-    """top: how many assets are shown at most."""
+    """Return what is known of the assets. top: how many are shown at most, the worst first."""
     made = Overview(issues=issues, least=least)
-    worst = worst_of(made.noting(assets), top, asset_rank)
-    is_short = made.total <= LISTED
-    made.shown = [each for each in worst if is_short or each.verdict != "pass"]
+    worst = worst_of(made.noting(assets), ROWS if top is None else top, asset_rank)
+    made.shown = [each for each in worst if each.verdict != "pass"]
     return made
 
 

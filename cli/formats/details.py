@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from satcheck.audit.words import NEGLIGIBLE, at_most, bounds, counted, number, vector, with_unit
+from satcheck.audit.words import counted, interval, number, stated, vector, with_unit
 from satcheck.cli.formats.tables import BOLD, BOLD_RED, YELLOW, fitted
 from satcheck.scene.units import unit_of
 
@@ -107,7 +107,7 @@ def _assumptions(statics: Statics, units: str | None) -> Iterator[str]:
     unit = unit_of(units)
     values = {
         "gravity": vector(statics.gravity),
-        "friction": number(statics.friction),
+        "friction": stated(statics.friction),
         "tolerance": with_unit(number(statics.tolerance), unit),
     }
     for name, value in values.items():
@@ -134,8 +134,7 @@ def facts(item: Component, finding: Finding) -> Iterator[str]:
     if item.thickness_bounds is None:
         yield "thickness not known"
     else:
-        low, high = item.thickness_bounds
-        yield f"{'<= ' + at_most(high) if low <= NEGLIGIBLE * high else bounds(low, high)} thick"
+        yield f"{interval(item.thickness_bounds)} thick"
     yield f"at {vector(item.point)}"
     if item.volume is not None:
         yield f"volume {number(item.volume)}"

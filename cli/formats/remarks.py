@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from satcheck.audit.words import (
@@ -17,12 +17,14 @@ from satcheck.audit.words import (
     rule_of,
     with_unit,
 )
+from satcheck.cli.formats.summary import MESHES
 from satcheck.cli.formats.tables import YELLOW
 from satcheck.cli.output import issue_line
 from satcheck.report.report import (
     CROSS_CHECK,
     NO_ANSWER,
     NOT_AVAILABLE,
+    NOTHING_TO_CHECK,
     OF_ANSWERS,
     ON_TRIANGLES,
 )
@@ -34,6 +36,11 @@ if TYPE_CHECKING:
 _ISSUE_STYLES = {"warning": YELLOW, "note": ""}
 
 
+# Lines on pairs, and issues of one code.
+MOST = 10
+ALIKE = 3
+
+
 class Remark(NamedTuple):
     """One line, and its style (`cli/formats/tables.py`)."""
 
@@ -42,74 +49,72 @@ class Remark(NamedTuple):
 
 
 def remarks(report: Report, shown: Sequence[Finding]) -> list[Remark]:
-    """One line a pair for the touch band and for what was not decided, one a body otherwise."""
-    tolerances = {body.id: body.surface_tolerance or 0.0 for body in report.bodies}
+    """One line for pairs of which the same is to be said, one a body, one for meshes that are not
+    in order and decide nothing."""
+    pairs: dict[str, list[str]] = {}
+    for finding in shown:
+        for text in _of_pair(finding, report):
+            pairs.setdefault(text, []).append(f"{finding.a} and {finding.b}")
     lines = [
-        Remark(line)
-        for finding in shown
-        for line in (
-            *_band(finding, tolerances),
-            *_undecided(finding, report),
-            *_ruled(finding, report),
-            *_moving(finding, unit_of(report.units)),
-        )
+        f"{about[0] if len(about) == 1 else counted(len(about), 'pair')}: {text}"
+        for text, about in pairs.items()
     ]
-    lines += [
-        Remark(line) for line in (*_curved(report), *_no_opinion(report), *_of_bodies(report))
-    ]
-    for issue in report.issues:
-        if issue.severity != "error" and issue.code not in OF_ANSWERS:
-            lines.append(Remark(issue_line(issue), _ISSUE_STYLES[issue.severity]))
-    return lines
+    if (more := len(lines) - MOST) > 0:
+        lines[MOST:] = [f"{counted(more, 'more remark')} on pairs: JSON has all"]
+    lines += [*_curved(report), *_no_opinion(report), *_of_bodies(report)]
+    return [*map(Remark, lines), *_issues(report, shown)]
 
 
-def _band(finding: Finding, tolerances: Mapping[str, float]) -> list[str]:
-    """What touching is without its tolerance. tolerances: of the surfaces of bodies."""
+def _of_pair(finding: Finding, report: Report) -> Iterator[str]:
+    yield from _band(finding, report)
+    yield from _undecided(finding, report)
+    yield from _ruled(finding, report)
+    yield from _moving(finding, unit_of(report.units))
+
+
+def _band(finding: Finding, report: Report) -> Iterator[str]:
+    """What touching is without its tolerance."""
     if finding.at_rest != "touching" or finding.exact_relation in (None, "touching"):
-        return []
-    pair, band = f"{finding.a} and {finding.b}", number(finding.tolerance or 0.0)
+        return
+    band = f"no more than the tolerance {number(finding.tolerance or 0.0)}"
+    off = [b.surface_tolerance or 0.0 for b in report.bodies if b.id in (finding.a, finding.b)]
     if finding.exact_relation == "separated":
-        return [f"{pair} are apart, but by no more than the tolerance {band}"]
-    off = max(tolerances.get(id_, 0.0) for id_ in (finding.a, finding.b))
-    if off > 0.5 * (finding.tolerance or 0.0):
-        return [f"{pair} overlap, but no deeper than their surfaces may be off"]
-    return [f"{pair} overlap, but by no more than the tolerance {band}"]
+        yield f"apart, but by {band}"
+    elif max(off, default=0.0) > 0.5 * (finding.tolerance or 0.0):
+        yield "overlapping, but no deeper than their surfaces may be off"
+    else:
+        yield f"overlapping, but by {band}"
 
 
-def _undecided(finding: Finding, report: Report) -> list[str]:
+def _undecided(finding: Finding, report: Report) -> Iterator[str]:
     """The reason, unless a line on the body or the summary says it for many pairs at once."""
     capped = finding.quality == "estimate" and report.settings.accuracy != "exact"
-    said = finding.undecided in ("limit", "motion") or finding.quality in ("exact", "bounded")
-    if finding.reason is None or capped or said:
-        return []
-    return [f"{finding.a} and {finding.b}: {finding.reason}"]
+    is_told = finding.undecided in ("limit", "motion") or finding.quality in ("exact", "bounded")
+    if finding.reason is not None and not (capped or is_told):
+        yield finding.reason
 
 
-def _ruled(finding: Finding, report: Report) -> list[str]:
+def _ruled(finding: Finding, report: Report) -> Iterator[str]:
     """What a rule of the scene made of the pair."""
-    pair = f"{finding.a} and {finding.b}"
     if finding.undecided == "limit":
-        return [f"{pair}: {finding.reason}"]
-    if all(rule.name != finding.rule for rule in report.rules):
-        return []
-    rule = rule_of(finding, report)
-    why = f" ({rule.reason})" if rule is not None and rule.reason else ""
-    said = [f"{pair}: {finding.severity} by {finding.rule}", *limits(finding, report)]
-    return [f"{', '.join(said)}{why}"]
+        yield finding.reason or ""
+    elif any(rule.name == finding.rule for rule in report.rules):
+        rule = rule_of(finding, report)
+        why = f" ({rule.reason})" if rule is not None and rule.reason else ""
+        said = [f"{finding.severity} by {finding.rule}", *limits(finding, report)]
+        yield f"{', '.join(said)}{why}"
 
 
-def _moving(finding: Finding, unit: str | None) -> list[str]:
+def _moving(finding: Finding, unit: str | None) -> Iterator[str]:
     """The worst pose of bodies that hit while they move, and what a sweep left open."""
-    swept, pair = finding.motion, f"{finding.a} and {finding.b}"
+    swept = finding.motion
     if swept is None:
-        return []
+        return
     if swept.reason is not None:
-        return [f"{pair}, while they move: {swept.reason}"]
-    if swept.worst is None or swept.worst.depth is None:
-        return []
-    where = ", ".join(place(at, unit) for at in swept.worst.at)
-    deep = with_unit(bounds(*swept.worst.depth), unit)
-    return [f"{pair}, while they move: deepest at {where}, {deep}"]
+        yield f"in motion: {swept.reason}"
+    elif swept.worst is not None and swept.worst.depth is not None:
+        where = ", ".join(place(at, unit) for at in swept.worst.at)
+        yield f"deepest at {where}: {with_unit(bounds(*swept.worst.depth), unit)}"
 
 
 def _curved(report: Report) -> Iterator[str]:
@@ -160,3 +165,36 @@ def _body(body: BodyReport, pairs: int, swept: int) -> list[str]:
     return [
         f"{body.id} has holes: {counted(swept, 'pair')} {verb} past them, and they may be filled"
     ]
+
+
+def _issues(report: Report, shown: Sequence[Finding]) -> Iterator[Remark]:
+    """The first issues of a kind, and how many more there are; in one line the meshes that no
+    listed pair depends on."""
+    ids = {id_ for finding in shown for id_ in (finding.a, finding.b)}
+    files = {body.file for body in report.bodies if body.id in ids}
+    told: Counter[str] = Counter()
+    more: Counter[str] = Counter()
+    idle: Counter[str] = Counter()
+    for issue in report.issues:
+        if issue.severity == "error" or issue.code in (*OF_ANSWERS, NOTHING_TO_CHECK):
+            continue
+        is_mesh = issue.code in MESHES
+        in_rows = issue.body in ids if issue.body else issue.file in files
+        kind = "mesh" if is_mesh else issue.code
+        told[kind] += not is_mesh or in_rows
+        if is_mesh and not in_rows:
+            idle[issue.code] += 1
+        elif told[kind] <= ALIKE:
+            yield Remark(issue_line(issue), _ISSUE_STYLES[issue.severity])
+        else:
+            more[issue.code] += 1
+    if more:
+        yield Remark(f"{_counts(more)} more: JSON has all")
+    if idle:
+        yield Remark(f"{_counts(idle)}; none mattered")
+
+
+def _counts(codes: Counter[str]) -> str:
+    """`19 open meshes, 2 [far-vertex]`"""
+    counts = ((count, MESHES.get(code, (f"[{code}]",) * 2)) for code, count in codes.items())
+    return ", ".join(counted(count, *words) for count, words in counts)

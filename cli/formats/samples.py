@@ -1,19 +1,21 @@
-"""A report over many poses as text: a row for each pose, or for each pair of many poses."""
+"""A report over many poses as text: a row for each pose that fails, or for each pair of many
+poses."""
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING
 
 from satcheck.audit.messages import nothing_checked
 from satcheck.audit.words import counted, in_motion, interval, with_unit
-from satcheck.cli.formats.summary import config_line, doubts
+from satcheck.cli.formats.summary import config_line
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
     GREEN,
+    ROWS,
     Column,
     fitted_each,
+    hidden,
     joined,
     table,
 )
@@ -22,7 +24,7 @@ from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from satcheck.cli.output import Page
     from satcheck.report.report import Finding
@@ -30,8 +32,6 @@ if TYPE_CHECKING:
 
 # More poses than this, and pairs are listed instead of poses.
 FEW_POSES = 20
-# Of the pairs at most so many, the worst first.
-ROWS = 60
 # Of one pose at most so many pairs that were found.
 FOUND = 8
 # At most so many lines about single poses.
@@ -40,22 +40,18 @@ REMARKS = 10
 _STYLES = {"fail": BOLD_RED, "incomplete": BOLD_MAGENTA, "pass": GREEN}
 
 
-# Failing pairs that are named, the most frequent first.
-NAMED = 3
-
-
 def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
     """The whole text, final newline included. Errors are not in it: they go to stderr.
 
     top: how many poses or pairs at most, the worst first; all count in the summary.
     """
     lines: list[str] = []
-    said: list[str] = []
     if result.summary.samples <= FEW_POSES:
-        poses = result.samples if top is None else _worst(result.samples)[:top]
-        lines += _poses(poses, unit_of(result.units), page)
-        if more := len(result.samples) - len(poses):
-            said.append(f"{counted(more, 'more pose')} not shown (--top {top})")
+        found = [sample for sample in result.samples if sample.verdict != "pass"]
+        found.sort(key=lambda sample: list(_STYLES).index(sample.verdict))
+        poses = found[: top or ROWS]
+        lines += _poses(poses, unit_of(result.units), page) if poses else []
+        said = hidden(len(found) - len(poses), "pose")
     else:
         met = sorted(
             (pair for pair in result.pairs if not pair.settled),
@@ -63,25 +59,18 @@ def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
         )
         rows = met[: top or ROWS]
         lines += _pairs(rows, result.summary.samples, page) if rows else []
-        if more := len(met) - len(rows):
-            why = f"not shown (--top {top})" if top else "not shown: JSON has all"
-            said.append(f"{counted(more, 'more pair')} {why}")
+        said = hidden(len(met) - len(rows), "pair")
     said += [issue_line(issue) for issue in result.issues if issue.severity != "error"]
     said += _remarks(result.samples)
     if result.config is not None:
         said.append(config_line(result.config))
-    said += [samples_counts(result), samples_verdict(result)]
+    said += [samples_counts(result), samples_verdict(result), *samples_next(result)]
     return joined([*lines, *fitted_each(said, page)], page)
-
-
-def _worst(samples: Sequence[SampledPose]) -> list[SampledPose]:
-    return sorted(samples, key=lambda sample: list(_STYLES).index(sample.verdict))
 
 
 def _poses(samples: Sequence[SampledPose], unit: str | None, page: Page) -> list[str]:
     columns = (
-        Column("#", tuple(str(sample.number) for sample in samples), right=True),
-        Column("pose", tuple(_as_text(sample.pose) for sample in samples), folds=True),
+        Column("pose", tuple(str(sample.number) for sample in samples), right=True),
         Column("verdict", tuple(sample.verdict for sample in samples), graded=True),
         Column("found", tuple("\n".join(_found(s.findings, unit)) for s in samples), folds=True),
     )
@@ -100,10 +89,9 @@ def _found(findings: Sequence[Finding], unit: str | None) -> list[str]:
 
 
 def _line(finding: Finding, unit: str | None) -> str:
-    pair = f"{finding.a} and {finding.b}"
     if finding.at_rest == "separated" and finding.motion is not None:
-        return f"{pair}, while they move: {in_motion(finding, unit)}"
-    return f"{pair} {finding.relation}{_depth(finding, unit)}"
+        return f"{finding.a} {in_motion(finding, unit, f' {finding.b}')}"
+    return f"{finding.a} and {finding.b} {finding.relation}{_depth(finding, unit)}"
 
 
 def _depth(finding: Finding, unit: str | None) -> str:
@@ -119,8 +107,8 @@ def _pairs(pairs: Sequence[SampledPair], samples: int, page: Page) -> list[str]:
     for name in ("overlaps", "touches", "near", "undecided"):
         cells = tuple(_share(getattr(pair, name), samples) for pair in pairs)
         columns += [Column(name, cells, right=True)] if any(cells) else []
-    first = tuple("" if p.first_pose is None else _as_text(p.first_pose) for p in pairs)
-    columns += [Column("the first overlap", first, folds=True)] if any(first) else []
+    first = tuple("" if p.first_overlap is None else f"pose {p.first_overlap:,}" for p in pairs)
+    columns += [Column("first overlap", first, right=True)] if any(first) else []
     return table(columns, page)
 
 
@@ -132,11 +120,6 @@ def _share(count: int, total: int) -> str:
     if percent == 0 or (percent == 100 and count < total):
         return f"{count:,} ({'< 1' if percent == 0 else '> 99'} %)"
     return f"{count:,} ({percent} %)"
-
-
-def _as_text(pose: Mapping[str, float | list[float]]) -> str:
-    """As --pose takes it."""
-    return json.dumps(pose, ensure_ascii=False)
 
 
 def _remarks(samples: Sequence[SampledPose]) -> list[str]:
@@ -161,7 +144,7 @@ def samples_counts(result: SamplesReport) -> str:
         for verdict in ("pass", "fail", "incomplete")
         if (count := result.summary.by_verdict[verdict])
     ]
-    line = (
+    return (
         f"{counted(result.summary.samples, kind)}{seed}, "
         f"{counted(len(result.bodies), 'body', 'bodies')}, "
         f"{counted(result.summary.pairs.total, 'pair')}"
@@ -169,19 +152,25 @@ def samples_counts(result: SamplesReport) -> str:
         f"{f', {result.summary.pairs.exempt:,} more exempt' if result.summary.pairs.exempt else ''}"
         f": {', '.join(parts)}."
     )
-    return " ".join([line, *doubts(result.issues)])
 
 
 def samples_verdict(result: SamplesReport) -> str:
-    """`FAIL: 9 pairs fail: base and upper in 24 poses, base and left in 14 poses, and 7 more.`"""
-    if result.summary.verdict == "pass":
-        return "PASS: no collision in any pose."
+    """`FAIL: 9 of 12 pairs fail; most often base and upper, in 24 poses.`"""
+    word = result.summary.verdict.upper()
+    if any(issue.severity == "error" for issue in result.issues):
+        word = "ERROR"
     if result.summary.verdict == "fail":
-        return f"FAIL: {_failed(result)}. Next: -o report.html shows them in 3-D."
+        return f"{word}: {_failed(result)}."
+    if result.summary.verdict == "pass":
+        return f"{word}: no collision in any pose."
     unchecked = nothing_checked(result.issues)
-    failed = any(issue.severity == "error" for issue in result.issues)
-    word = "ERROR" if failed else "INCOMPLETE"
     return " ".join([f"{word}:", *(unchecked or ["no collision was found, but not proven."])])
+
+
+def samples_next(result: SamplesReport) -> list[str]:
+    """`Next: -o report.html shows them in 3-D.`; nothing unless some fail."""
+    fails = result.summary.verdict == "fail"
+    return ["Next: -o report.html shows the poses in 3-D."] if fails else []
 
 
 def _failed(result: SamplesReport) -> str:
@@ -190,8 +179,9 @@ def _failed(result: SamplesReport) -> str:
         poses = result.summary.by_verdict["fail"]
         verb = "fails" if poses == 1 else "fail"
         return f"{counted(poses, 'pose')} {verb} by the support of bodies"
-    failed.sort(key=lambda pair: (-pair.fails, pair.first_overlap or 0))
-    named = [f"{p.a} and {p.b} in {counted(p.fails, 'pose')}" for p in failed[:NAMED]]
-    more = f", and {len(failed) - len(named):,} more" if len(failed) > len(named) else ""
-    verb = "fails" if len(failed) == 1 else "fail"
-    return f"{counted(len(failed), 'pair')} {verb}: {', '.join(named)}{more}"
+    worst = min(failed, key=lambda pair: (-pair.fails, pair.first_overlap or 0))
+    often = f"{worst.a} and {worst.b}, in {counted(worst.fails, 'pose')}"
+    if len(failed) == 1:
+        return f"1 pair fails: {often}"
+    total = counted(result.summary.pairs.total, "pair")
+    return f"{len(failed):,} of {total} fail; most often {often}"

@@ -1,11 +1,10 @@
-"""What a report counts: bodies, pairs, relations, findings beside a baseline, and the warnings that
-make it doubtful."""
+"""What a report counts: bodies, pairs, relations, findings beside a baseline; and the next step."""
 
 from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
@@ -13,24 +12,30 @@ from msgspec import Struct, field
 from satcheck.audit.acceptance import words_to_accept
 from satcheck.audit.messages import failing
 from satcheck.audit.words import counted, is_hit, is_unusable, number
-from satcheck.report.report import (
-    CROSS_CHECK,
-    OVERLAPS,
-    RELATIONS,
-    SIZES_DIFFER,
-    TOLERANCE_LARGE,
-)
+from satcheck.report.report import CROSS_CHECK, OVERLAPS, RELATIONS
 from satcheck.report.verdict import exempt_by
 from satcheck.scene.bodies import UNITS_UNKNOWN
 
 if TYPE_CHECKING:
     from satcheck.report.baseline import BaselineState
-    from satcheck.report.report import Finding, Issue, Report
+    from satcheck.report.report import Finding, Report
     from satcheck.report.settings import OptionValue, StatedConfig
     from satcheck.report.sweep import Sweep
 
-_DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
+# What the meshes of a code of issues are.
+MESHES = {
+    "not-closed": ("open mesh", "open meshes"),
+    "cracks": ("mesh with closed cracks", "meshes with closed cracks"),
+    "not-manifold": ("non-manifold mesh", "non-manifold meshes"),
+    "misoriented": ("inconsistently wound mesh", "inconsistently wound meshes"),
+    "inside-out": ("turned mesh", "turned meshes"),
+    "double-sided": ("double-sided mesh", "double-sided meshes"),
+    "flat": ("flat mesh", "flat meshes"),
+    "no-volume": ("mesh without volume", "meshes without volume"),
+    "degenerate-triangles": ("mesh with empty triangles", "meshes with empty triangles"),
+    "duplicate-triangles": ("mesh with repeated triangles", "meshes with repeated triangles"),
+}
 
 
 _STATES: tuple[BaselineState, ...] = ("accepted", "new", "worse", "undecided")
@@ -50,7 +55,7 @@ def counts_line(report: Report) -> str:
             counts.append(f"{pairs.allowed:,} allowed")
         line += f": {', '.join(counts)}{_exempt(report)}"
     more = [*_hits(report), *beside_baseline(report), *_cross_check(report)]
-    return " ".join([f"{line}.", *more, *doubts(report.issues)])
+    return " ".join([f"{line}.", *more])
 
 
 def _exempt(report: Report) -> str:
@@ -72,7 +77,7 @@ def _counts(report: Report) -> list[str]:
     accuracy = report.settings.accuracy
     why = "" if accuracy == "exact" else f" (not proven at --accuracy {accuracy})"
     guesses = [f for f in report.findings if f.quality == "estimate"]
-    overlaps = Counter(f.relation for f in guesses if _surely_overlaps(f, report))
+    overlaps = Counter(f.relation for f in guesses if surely_overlaps(f, report))
     estimates = Counter(f.relation for f in guesses) - overlaps
     counts = []
     for name in RELATIONS:
@@ -87,7 +92,7 @@ def _counts(report: Report) -> list[str]:
     return counts
 
 
-def _surely_overlaps(estimate: Finding, report: Report) -> bool:
+def surely_overlaps(estimate: Finding, report: Report) -> bool:
     """Whether only open is how: one body may hold the other."""
     settings = report.settings
     is_strict = settings.accuracy == "exact" and not settings.allow_open
@@ -106,7 +111,7 @@ def _hits(report: Report) -> list[str]:
         return []
     first = min((hit for hit in hits if hit is not None), key=_first_time)
     since = f", the first at t = {number(_first_time(first))}" if len(hits) > 1 else ""
-    return [f"{' and '.join(said)} while moving{since}."]
+    return [f"{' and '.join(said)} in motion{since}."]
 
 
 def _first_time(hit: Sweep) -> float:
@@ -124,6 +129,8 @@ def _cross_check(report: Report) -> list[str]:
         results = [stage.result for stage in finding.plan if stage.stage == CROSS_CHECK]
         standings.update(results)
         asked += bool(results)
+    if not asked:
+        return ["Cross-check: no pair was asked about."]
     agree, disagree = standings.pop("agrees", 0), standings.pop("disagrees", 0)
     parts = [f"{counted(agree, 'answer')} {'agrees' if agree == 1 else 'agree'}"]
     if disagree:
@@ -133,12 +140,6 @@ def _cross_check(report: Report) -> list[str]:
     if unasked := report.summary.pairs.total - report.summary.pairs.allowed - asked:
         parts.append(f"{counted(unasked, 'pair')} not asked about")
     return [f"Cross-check: {', '.join(parts)}."]
-
-
-def doubts(issues: Iterable[Issue]) -> list[str]:
-    """Warnings under which the counts say little, once more."""
-    said = [issue.message for issue in issues if issue.code in _DOUBTS]
-    return [f"Warning: {text}{'' if text.endswith('?') else '.'}" for text in said]
 
 
 class BesideBaseline(Struct):
@@ -185,46 +186,49 @@ def summary_line(report: Report) -> str:
 def next_step(report: Report, *, written: bool = False) -> list[str]:
     """`Next: -o report.html shows the overlaps.`; nothing after a pass. written: the report goes
     to a file."""
-    step = _after_failure(report, written) if report.summary.verdict == "fail" else _open(report)
-    return [f"Next: {step}."] if step else []
+    steps = _after_failure(report, written) if report.summary.verdict == "fail" else _open(report)
+    return [f"Next: {step}." for step in steps if step]
 
 
-def _after_failure(report: Report, written: bool) -> str:
+def _after_failure(report: Report, written: bool) -> Iterator[str]:
     worst = failing(report)
     overlaps = [f for f in worst if f.at_rest in OVERLAPS]
     if report.settings.accuracy != "exact" and any(f.quality == "estimate" for f in worst):
-        return "--accuracy exact decides what is only possible"
-    if any(f.depth is None and f.thickness is None for f in overlaps):
-        return "--depth measures the overlaps"
-    if len(overlaps) > MANY and report.baseline is None:
-        return "satcheck suggest proposes rules for overlaps that are intended"
-    return "" if written else f"-o report.html shows {'it' if len(worst) == 1 else 'them'} in 3-D"
+        yield "--accuracy exact decides what is only possible"
+    elif len(overlaps) > MANY and report.baseline is None:
+        yield "satcheck suggest proposes rules for overlaps that are intended"
+    elif not written:
+        yield f"-o report.html shows {'it' if len(worst) == 1 else 'them'} in 3-D"
+    within = [f for f in overlaps if f.at_rest in ("contains", "inside")]
+    if _depends_on_holes(report, within):
+        yield "--allow-open, if the open meshes are meant to be open: they then have no inside"
 
 
-def _open(report: Report) -> str:
+def _open(report: Report) -> Iterator[str]:
     """What may decide the questions that are open, but for those of bodies that cannot be used."""
     blocking = dict.fromkeys(words_to_accept(i) for i in report.issues if i.state == "blocking")
-    if blocking:
-        return f"{' '.join(blocking)}, if that is as meant"
     unusable = {body.id for body in report.bodies if is_unusable(body)}
     asked = [f for f in report.findings if f.undecided and not unusable & {f.a, f.b}]
-    if not asked:
-        return ""
-    if any(issue.code == UNITS_UNKNOWN for issue in report.issues):
-        return "--units states the unit of files that have none"
-    if report.settings.accuracy != "exact":
-        return "--accuracy exact decides it"
-    if _depends_on_holes(report, asked):
-        return "close the holes, or give --allow-open if they are meant to be open"
-    if any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
-        return "a larger --depth-budget may decide it"
-    return "--explain shows the steps"
-
-
-def _depends_on_holes(report: Report, asked: Sequence[Finding]) -> bool:
-    holed = {b.id for b in report.bodies if b.health is not None and b.health.holes}
     undecided = [f for f in asked if f.undecided in ("relation", "inside")]
-    return not report.settings.allow_open and any(holed & {f.a, f.b} for f in undecided)
+    if blocking:
+        yield f"{' '.join(blocking)}, if that is as meant"
+    elif not asked:
+        return
+    elif any(issue.code == UNITS_UNKNOWN for issue in report.issues):
+        yield "--units states the unit of files that have none"
+    elif report.settings.accuracy != "exact":
+        yield "--accuracy exact decides it"
+    elif _depends_on_holes(report, undecided):
+        yield "close the holes, or give --allow-open if they are meant to be open"
+    elif any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
+        yield "a larger --depth-budget may decide it"
+    else:
+        yield "--explain shows the steps"
+
+
+def _depends_on_holes(report: Report, findings: Sequence[Finding]) -> bool:
+    holed = {b.id for b in report.bodies if b.health is not None and b.health.holes}
+    return not report.settings.allow_open and any(holed & {f.a, f.b} for f in findings)
 
 
 def config_lines(reports: Iterable[Report]) -> list[str]:

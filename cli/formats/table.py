@@ -1,15 +1,19 @@
-"""The report as a table: one row for each pair, the worst first, then remarks and the summary."""
+"""The report as a table: a row for each pair that fails, warns or is undecided, the worst first;
+then remarks and the summary."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from itertools import accumulate, chain, pairwise
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from satcheck.audit.settings import LISTED_PAIRS
+from msgspec.structs import replace
+
+from satcheck.audit.messages import of_command, verdict_line
 from satcheck.audit.words import (
-    after_rounding,
+    about,
     bounds,
+    common_root,
     counted,
     duration,
     in_motion,
@@ -17,25 +21,28 @@ from satcheck.audit.words import (
     is_hit,
     is_unusable,
     number,
-    past_holes,
     severity,
     vector,
+    without_root,
     worst_first,
 )
+from satcheck.cli.formats.details import component_lines, region_lines, support_lines
 from satcheck.cli.formats.remarks import remarks
-from satcheck.cli.formats.summary import config_line, counts_line, next_step
+from satcheck.cli.formats.summary import config_line, counts_line, next_step, surely_overlaps
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
     CYAN,
     GREEN,
+    ROWS,
     YELLOW,
     Column,
-    Grid,
-    fit,
+    all_begin,
     fitted,
+    fitted_each,
+    hidden,
     joined,
-    stacked,
+    table,
 )
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
@@ -59,97 +66,80 @@ def render(
 ) -> str:
     """The whole text, final newline included. Errors are not in it: they go to stderr.
 
-    top: how many pairs at most; all count in the summary.
+    explain: also the pairs that pass. top: how many pairs at most; all count in the summary.
     """
-    rows = worst_first(_listed(report))
-    groups = groups_of(rows[:top], _titled(report))
-    shown = list(chain.from_iterable(groups))
+    names = [body.id for body in report.bodies]
+    root = common_root(names) if len(names) > 1 and not report.answers else ""
+    if root:
+        report = without_root(report, root)
+        report = replace(report, message=verdict_line(report))
+    usable = _of_usable_bodies(report)
+    few = explain or len(usable) == 1
+    told = worst_first(usable if few else (f for f in usable if _is_told(f, report)))
+    shown = told[: top or ROWS]
     lines: list[str] = []
     if shown:
-        columns = columns_of(shown, report.units, timings=explain and timings)
-        styles = [_style(finding) for finding in shown]
-        layout = fit(columns, page.width)
-        if layout is None:
-            titles = [f"{each.a} and {each.b}: {each.relation}" for each in shown]
-            lines += stacked(titles, columns[3:], page, styles)
-        else:
-            lines += Grid(layout, page, styles, set(_breaks(groups))).lines()
-    for rest in _left_out(report, rows, top):
-        lines += fitted(rest, page)
-    if any(finding.components for finding in shown):
-        from satcheck.cli.formats.details import component_lines
-
-        lines += component_lines(page, shown)
-    if report.support is not None:
-        from satcheck.cli.formats.details import support_lines
-
-        lines += support_lines(report, page)
-    if report.regions:
-        from satcheck.cli.formats.details import region_lines
-
-        lines += region_lines(report, page)
+        columns = columns_of(shown, report, explain=explain, timings=timings)
+        lines += table(columns, page, list(map(_style, shown)))
+    said = [*hidden(len(told) - len(shown), "pair"), *_passing(report, usable, told)]
+    said += all_begin(root) if shown else []
+    lines += fitted_each(said, page)
+    lines += component_lines(page, shown)
+    lines += support_lines(report, page)
+    lines += region_lines(report, page)
     if explain:
-        from satcheck.cli.formats.explain import explanation  # rich's tables
+        from satcheck.cli.formats.explain import explanation
 
         lines += explanation(page, report, shown, timings=timings)
     for remark in remarks(report, shown):
         lines += fitted(remark.text, page, remark.style)
     if report.config is not None:
         lines += fitted(config_line(report.config), page)
-    lines += fitted(counts_line(report), page)
-    lines += fitted(" ".join([report.message, *next_step(report)]), page)
+    lines += fitted_each([counts_line(report), of_command(report), *next_step(report)], page)
     return joined(lines, page)
 
 
-def _listed(report: Report) -> Sequence[Finding]:
-    """What could be examined; of more than LISTED_PAIRS only what is not plainly separated, at rest
-    and on the way."""
+def _of_usable_bodies(report: Report) -> list[Finding]:
     unusable = {body.id for body in report.bodies if is_unusable(body)}
-    findings = [f for f in report.findings if f.a not in unusable and f.b not in unusable]
-    if len(findings) > LISTED_PAIRS:
-        findings = [f for f in findings if _is_told(f)]
-    return findings
+    return [f for f in report.findings if f.a not in unusable and f.b not in unusable]
 
 
-def _is_told(finding: Finding) -> bool:
-    if finding.relation != "separated":
+def _is_told(finding: Finding, report: Report) -> bool:
+    """Return whether the pair fails, warns, is undecided or has a figure that was asked for."""
+    if severity(finding) in ("error", "warning") or finding.undecided is not None:
         return True
-    return finding.reason is not None and not past_holes(finding)
+    asked = report.settings.contacts or report.settings.volume or report.settings.components
+    return asked and finding.relation != "separated"
 
 
-def _titled(report: Report) -> set[str]:
-    """The ids of elements that have names of their own, such as those of IFC files."""
-    return {body.id for body in report.bodies if body.path is not None and body.name != body.id}
+def _passing(report: Report, findings: Sequence[Finding], told: Sequence[Finding]) -> Iterator[str]:
+    """Yield `3 touching, 15 separated pairs not shown`."""
+    kinds = Counter(map(_kind, findings)) - Counter(map(_kind, told))
+    listed = sum(finding.relation == "separated" for finding in findings)
+    kinds["separated"] += report.summary.by_relation.get("separated", 0) - listed
+    counts = [f"{count:,} {kind}" for kind, count in sorted(kinds.items()) if count > 0]
+    if counts and (told or len(counts) > 1):
+        yield f"{', '.join(counts)} {'pair' if kinds.total() == 1 else 'pairs'} not shown"
+
+
+def _kind(finding: Finding) -> str:
+    if finding.baseline_state == "unchanged":
+        return "known"
+    return "allowed" if finding.relation in OVERLAPS else finding.relation
 
 
 def _style(finding: Finding) -> str:
     return BOLD_MAGENTA if finding.relation == "indeterminate" else _STYLES[severity(finding)]
 
 
-def _breaks(groups: Sequence[Sequence[Finding]]) -> Iterator[int]:
-    """The rows that begin behind a rule: where a group of several findings begins or ends."""
-    ends = accumulate(map(len, groups))
-    for end, (before, after) in zip(ends, pairwise(groups), strict=False):
-        if severity(before[0]) != "none" and (len(before) > 1 or len(after) > 1):
-            yield end
-
-
-def _left_out(report: Report, rows: Sequence[Finding], top: int | None) -> Iterator[str]:
-    hidden = len(rows[top:]) if top else 0
-    if hidden:
-        yield f"{counted(hidden, 'more pair')} not shown (--top {top})"
-    listed = sum(finding.relation == "separated" for finding in rows)
-    rest = report.summary.by_relation.get("separated", 0) - listed
-    if rows and rest:
-        yield f"{counted(rest, 'more pair')}, all separated"
-
-
-def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool) -> list[Column]:
+def columns_of(
+    findings: Sequence[Finding], report: Report, *, explain: bool, timings: bool
+) -> list[Column]:
     """Columns that say nothing are left out: those that are empty in every row, the severity where
-    it is that of the relation, the quality where all is exact."""
-    known = unit_of(units)
+    it is that of the relation."""
+    known = unit_of(report.units)
     unit = f" ({known})" if known else ""
-    rounded = max((after_rounding(finding.mtv) for finding in findings), default="")
+    rounded = max((about(finding.mtv) for finding in findings), default="")
     placed = " as placed" if any(finding.motion is not None for finding in findings) else ""
 
     def column(name: str, cell: Callable[[Finding], str], **how: bool) -> Column:
@@ -158,22 +148,29 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
     made = [
         column("A", lambda finding: finding.a, named=True),
         column("B", lambda finding: finding.b, named=True),
-        column("relation", lambda finding: finding.relation, graded=True),
+        column("relation", lambda finding: _relation(finding, report), graded=True),
         column(f"gap{unit}", _gap, right=True, folds=True),
         column(f"thickness{unit}", _overlap("thickness", findings), right=True, folds=True),
         column(f"depth{unit}", _overlap("depth", findings), right=True, folds=True),
-        column(f"move A by{unit}{rounded}", _mtv, folds=True),
+        column(f"move A by {rounded}".rstrip() + unit, _mtv, folds=True),
         column(f"volume{placed}{f' ({known}^3)' if known else ''}", _volume, right=True),
         column(f"contact{placed}", contacts, folds=True),
         column("in motion", lambda finding: in_motion(finding, known), folds=True),
     ]
     if any(finding.severity != _implied(finding) or finding.baseline_state for finding in findings):
         made.insert(3, column("severity", _severity, graded=True))
-    if any(finding.quality not in (None, "exact") for finding in findings):
+    if explain:
         made.append(column("quality", lambda finding: finding.quality or ""))
-    if timings:
+    if explain and timings:
         made.append(column("time", _time, right=True))
     return [each for each in made if any(each.cells)]
+
+
+def _relation(finding: Finding, report: Report) -> str:
+    if finding.quality != "estimate":
+        return finding.relation
+    sure = surely_overlaps(finding, report)
+    return "overlapping" if sure else f"possibly {finding.relation}"
 
 
 def _gap(finding: Finding) -> str:
@@ -225,25 +222,6 @@ def _mtv(finding: Finding) -> str:
 
 def _time(finding: Finding) -> str:
     return duration(sum(stage.microseconds for stage in finding.plan)) if finding.plan else ""
-
-
-def groups_of(
-    findings: Iterable[Finding], alone: Collection[str] = frozenset()
-) -> list[list[Finding]]:
-    """Findings that are the worst first: of one severity, all pairs between two parts in a group,
-    which stands where its worst finding stands. alone: ids of bodies that are parts of their
-    own."""
-    groups: dict[tuple[str, frozenset[str]], list[Finding]] = {}
-    for finding in findings:
-        ids = finding.a, finding.b
-        parts = frozenset(id_ if id_ in alone else _part(id_) for id_ in ids)
-        groups.setdefault((severity(finding), parts), []).append(finding)
-    return list(groups.values())
-
-
-def _part(id_: str) -> str:
-    """`gripper` of `gripper/left`: the node or the link that the body belongs to."""
-    return id_.rpartition("/")[0] or id_
 
 
 def contacts(finding: Finding) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.words import DIGITS, counted, duration, interval, number
+from satcheck.audit.words import at_least, at_most, counted, duration, interval, number
 from satcheck.cli.formats.tables import BOLD_RED, GREEN, Column, fitted, fitted_each, joined, table
 
 if TYPE_CHECKING:
@@ -54,9 +54,9 @@ def figure(value: float, bounds: Bounds) -> str:
     low, high = bounds
     if value < 0:
         depth = None if high is None or high >= 0 else interval((-high, -value))
-        return f"depth {depth or f'<= {number(-value)}'}"
+        return f"depth {depth or f'<= {at_most(-value)}'}"
     if high is None:
-        return f"gap >= {number(value)}"
+        return f"gap >= {at_least(value)}"
     return f"gap {number(value) if low is None else interval((max(low, 0.0), high))}"
 
 
@@ -98,7 +98,7 @@ def _verdict(row: Row) -> str:
 
 def _answer(row: Row) -> str:
     if row.volume is not None:
-        error = f" +- {row.volume_error:.0e}" if row.volume_error else ""
+        error = f" ±{row.volume_error:.0e}" if row.volume_error else ""
         return f"volume {number(row.volume)}{error}"
     if row.signed_distance is None or row.bounds is None:
         return ""
@@ -108,7 +108,7 @@ def _answer(row: Row) -> str:
 def _error(row: Row) -> str:
     if row.error is None:
         return ""
-    return "0" if row.error == 0 else f"{row.error:+.{DIGITS - 3}g}"
+    return "0" if row.error == 0 else f"{row.error:+.3g}"
 
 
 def _time(times: Times | None) -> str:

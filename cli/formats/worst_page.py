@@ -88,7 +88,7 @@ def _scenes(seen: Overview) -> Iterator[str]:
     if not seen.shown:
         return
     yield "<h2>The worst scenes</h2>\n<table>\n"
-    yield "<tr><th>scene</th><th>verdict</th><th>bodies</th><th>pairs</th><th>worst</th></tr>\n"
+    yield "<tr><th>scene</th><th>verdict</th><th>failing pairs</th><th>worst</th></tr>\n"
     for asset in seen.shown:
         cells = cells_of(asset)
         yield f"<tr>{''.join(f'<td>{_text(cell)}</td>' for cell in cells)}</tr>\n"

@@ -8,7 +8,8 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
-from satcheck.cli.formats.summary import summary_line
+from satcheck.cli.formats.table import render
+from satcheck.cli.output import Page
 from satcheck.scene import Rule, Selector, load_scene
 from tests.audit.shapes import box, write
 
@@ -23,6 +24,11 @@ def report_of(
     return check(scene, Settings(tolerance=tolerance))
 
 
+def text_of(report: Report) -> str:
+    page = Page(width=400, colour=False, unicode=True)
+    return render(report, page, explain=False, timings=False)
+
+
 def said(report: Report, code: str) -> list[str]:
     return [issue.message for issue in report.issues if issue.code == code]
 
@@ -34,7 +40,7 @@ def test_a_thousandfold_is_doubtful(tmp_path: Path, size: float, doubtful: bool)
     assert bool(found) == doubtful
     if doubtful:
         assert found == [f"b1 is {size:g} in size and b0 1e+03: is one of them in another unit?"]
-        assert summary_line(report).endswith(f"Warning: {found[0]}")
+        assert f"\nwarning: {found[0]} [" in text_of(report)
 
 
 @pytest.mark.parametrize(
@@ -50,4 +56,4 @@ def test_a_tolerance_larger_than_a_body(
     if small:
         message = "b0 is smaller than the tolerance 1.5, within which an overlap counts as touching"
         assert found[0].message == message
-        assert summary_line(report).endswith(f"Warning: {message}.")
+        assert f"\nwarning: {message} [" in text_of(report)

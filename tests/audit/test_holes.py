@@ -150,7 +150,7 @@ def test_the_report_counts_holes_and_gives_the_largest(tmp_path):
     assert health["holes"] == 3
     assert health["largest_hole"] == pytest.approx(2 * 2**0.5)
     (message,) = [issue.message for issue in report.issues if issue.code == "not-closed"]
-    assert message.startswith("3 holes, the largest in a box 2.83 from corner to corner")
+    assert message == "open mesh (3 holes, largest 2.83 across)"
 
 
 BAR = box((1, 1, 1), (3, 5, 3))  # from the bracket into its notch

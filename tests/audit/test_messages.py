@@ -45,7 +45,7 @@ def test_each_format_prints_them(form: str) -> None:
 
 def test_a_table_ends_with_that_of_the_report() -> None:
     told = replace(PUSHED, message="FAIL: what was composed.")
-    assert "\nFAIL: what was composed. Next: " in render_table(
+    assert "\nFAIL: what was composed.\nNext: " in render_table(
         told, PLAIN_PAGE, explain=False, timings=False
     )
 

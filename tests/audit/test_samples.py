@@ -163,7 +163,7 @@ def test_what_hits_on_the_way_counts(tmp_path: Path, monkeypatch: pytest.MonkeyP
         assert hits <= listed
         assert all(tallies[pair].first_overlap <= number for pair in hits)
     text = render(found, PLAIN_PAGE)
-    assert "while they move: hits at" in text
+    assert "cart hits " in text
     assert "separated" not in text
     schema = Draft202012Validator(json.loads(schema_text("samples")))
     schema.validate(json.loads(json.dumps(found.to_dict())))

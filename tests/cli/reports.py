@@ -192,9 +192,7 @@ SOUP = replace(
     parts=3,
     part_error=PartError(0.25, 0.0),
 )
-OPEN = Issue(
-    "not-closed", "warning", "soup", "soup.stl", "1 hole, 2 across: there, nothing is inside"
-)
+OPEN = Issue("not-closed", "warning", "soup", "soup.stl", "open mesh (1 hole, 2 across)")
 MISSING = Issue("unreadable", "error", None, "gone.obj", "there is no such file")
 
 

@@ -22,11 +22,10 @@ def test_overlap_is_exit_1_and_a_table() -> None:
     assert ran.code == 1
     assert "penetrating" in ran.out
     assert "(-1, 0, 0)" in ran.out
-    assert (
-        ran.out.splitlines()[-1]
-        == "FAIL: box and box_pushed overlap (thickness 1, 1 to pull apart). "
-        "Next: -o report.html shows it in 3-D."
-    )
+    assert ran.out.splitlines()[-2:] == [
+        "FAIL: box and box_pushed overlap (thickness 1, 1 to pull apart).",
+        "Next: -o report.html shows it in 3-D.",
+    ]
     assert ran.err == ""
 
 
@@ -125,8 +124,8 @@ def test_a_body_in_a_hole_is_no_pass(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("key", "value", "code", "line"),
     [
-        ("allowed_pairs", [["base", "bolt", "bolted"]], 0, "PASS: No pair was checked: 1 allowed"),
-        ("ignore_within_groups", ["all"], 3, "INCOMPLETE: No pair was checked: 1 within ignored"),
+        ("allowed_pairs", [["base", "bolt", "bolted"]], 0, "PASS: no pair was checked: 1 allowed"),
+        ("ignore_within_groups", ["all"], 3, "INCOMPLETE: no pair was checked: 1 within ignored"),
     ],
 )
 def test_nothing_checked_passes_only_where_rules_allow_all(

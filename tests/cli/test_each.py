@@ -90,7 +90,7 @@ def test_files_that_no_reader_knows_block_a_pass(foreign: Path) -> None:
 
 
 def test_such_files_stand_in_every_format(foreign: Path) -> None:
-    table = satcheck("each", str(foreign))
+    table = satcheck("each", str(foreign), env={"COLUMNS": "400"})
     assert "props/chair.FBX: files of FBX are not read" in " ".join(table.out.split())
     assert "Next:" not in table.out
     suites = JUnitXml.fromstring(satcheck("each", str(foreign), "--format", "junit").out.encode())
@@ -99,7 +99,7 @@ def test_such_files_stand_in_every_format(foreign: Path) -> None:
     results = str(foreign.parent / "results.jsonl")
     assert satcheck("batch", str(foreign), "-o", results).code == 3
     assert satcheck("batch", str(foreign), "-o", results, "--resume").code == 3
-    assert f"1 incomplete ({foreign.as_posix()})" in satcheck("report", results).out
+    assert "2 assets: 1 incomplete" in satcheck("report", results).out
 
 
 @pytest.mark.parametrize(
@@ -206,8 +206,8 @@ def test_a_missing_folder_is_an_error_and_no_body(tmp_path: Path) -> None:
     assert ran.code == 2
     assert ran.out.endswith("ERROR: 1 asset: 1 has errors (nowhere).\n")
     (row,) = (line.split() for line in ran.out.splitlines() if "no such file" in line)
-    assert row[1::2][:4] == ["nowhere", "error", "0", "0"]
-    assert "nowhere: no such file or folder [file-not-found]" in ran.err
+    assert row[:2] == ["nowhere", "error"]
+    assert ran.err == ""
 
 
 def test_junit_has_a_suite_for_each_asset(assets: Path) -> None:
@@ -217,11 +217,11 @@ def test_junit_has_a_suite_for_each_asset(assets: Path) -> None:
 
 
 def test_the_table_ends_with_the_verdict(assets: Path) -> None:
-    ran = satcheck("each", str(assets))
-    last = ran.out.splitlines()[-1]
-    (failing,) = re.findall(r"1 fails \((\S+)\), 1 passes", last)
-    assert last.startswith("FAIL: 2 assets: ")
-    assert last.endswith(f"Next: satcheck {failing} lists its pairs.")
+    ran = satcheck("each", str(assets), env={"COLUMNS": "400"})
+    counts, last = ran.out.splitlines()[-2:]
+    (failing,) = re.findall(r"satcheck (\S+) lists", last)
+    assert re.fullmatch(r"FAIL: 2 assets: 1 fails( \(\S+\))?, 1 passes \(of one .*\)\.", counts)
+    assert last == f"Next: satcheck {failing} lists its pairs."
     assert satcheck(failing).code == 1
 
 
@@ -396,11 +396,9 @@ def test_an_asset_whose_pairs_are_all_allowed_passes_and_says_so(
     assert satcheck("each", "fit.toml", cwd=tmp_path).code == 1
     ran = satcheck(*call, cwd=tmp_path)
     assert ran.code == 0
-    assert "no pair was checked: 1 allowed by rules" in ran.out
-    last = "PASS: 1 asset: 1 passes. No pair of 1 passing asset was checked: rules allow them all."
-    assert ran.out.splitlines()[-1].startswith(last)
+    assert ran.out.startswith("PASS: 1 asset: 1 passes.\nNo pair of 1 passing asset was checked: ")
     suites = satcheck(*call, "--format", "junit", cwd=tmp_path).out
-    assert "PASS: No pair was checked: 1 allowed by rules." in suites
+    assert "PASS: no pair was checked: 1 allowed by rules." in suites
 
 
 @pytest.mark.parametrize(
@@ -419,7 +417,7 @@ def test_an_asset_that_exempts_its_pairs_in_another_way_is_incomplete(
 
 
 def test_the_reason_of_an_incomplete_asset_comes_first(tmp_path: Path) -> None:
-    """Before the warning about the hole of a body."""
+    """Not the warning about the hole of a body."""
     for name in ("open_box.off", "cube.off"):
         shutil.copy(SAMPLES / name, tmp_path)
     bodies = "".join(
@@ -430,7 +428,7 @@ def test_the_reason_of_an_incomplete_asset_comes_first(tmp_path: Path) -> None:
     (tmp_path / "fit.toml").write_text(header + bodies)
     ran = satcheck("each", "fit.toml", cwd=tmp_path)
     assert ran.code == 3
-    assert re.search(r"no pair was checked: 1 of static bodies\s+\(and 1 more\)", ran.out)
+    assert "  no pair was checked: 1 of static bodies\n" in ran.out
 
 
 def test_the_proposed_check_has_the_options_that_change_its_answer(tmp_path: Path) -> None:

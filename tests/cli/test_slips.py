@@ -120,3 +120,20 @@ def test_a_report_is_no_mesh(folder: Path) -> None:
     assert ran.code == 2
     assert not (folder / "x.stl").exists()
     assert "x.stl: this command writes" in ran.err
+
+
+def test_files_that_stand_around_the_origin_may_be_assets(tmp_path: Path) -> None:
+    """Parts of an assembly do not: they stand beside each other."""
+    assets = tmp_path / "my props"
+    assets.mkdir()
+    for name in ("box.obj", "cube.off", "kettle.obj", "l_bracket.obj"):
+        shutil.copy(SAMPLES / name, assets / name)
+    names = [f"my props/{path.name}" for path in sorted(assets.iterdir())]
+    first, second, *_ = satcheck("--no-depth", *names, cwd=tmp_path).err.splitlines()
+    assert "files lie around the origin. If each file is an asset of its own:" in first
+    assert second == "  satcheck batch 'my props'"
+    assert satcheck("--no-depth", *names[:3], cwd=tmp_path).err == ""
+    for k in range(4):
+        far = f"v {100 * k} 0 0\nv {100 * k + 1} 0 0\nv {100 * k} 1 0\nf 1 2 3\n"
+        (tmp_path / f"part{k}.obj").write_text(far)
+    assert satcheck(*(f"part{k}.obj" for k in range(4)), cwd=tmp_path).err == ""

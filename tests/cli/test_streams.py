@@ -19,7 +19,7 @@ from tests.cli.process import (
 )
 
 
-@pytest.mark.parametrize(("name", "start"), [("report.json", "{"), ("report.txt", "╭")])
+@pytest.mark.parametrize(("name", "start"), [("report.json", "{"), ("report.txt", "A    B  ")])
 def test_output_file(tmp_path: Path, name: str, start: str) -> None:
     """The ending chooses the format, unless --format does."""
     ran = satcheck("-o", str(tmp_path / name), *PUSHED)
@@ -37,7 +37,7 @@ def test_a_name_that_no_report_has_is_refused(tmp_path: Path, more: tuple[str, .
     assert "report.svg: this command writes table, json" in ran.err
     assert not page.exists()
     assert satcheck("--format", "table", "-o", str(page), *PUSHED).code == 1
-    assert page.read_text(encoding="utf-8").startswith("╭")
+    assert page.read_text(encoding="utf-8").startswith("A    B  ")
 
 
 def test_warnings_do_not_vanish_with_the_output(tmp_path: Path) -> None:

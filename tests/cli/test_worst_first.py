@@ -45,15 +45,21 @@ def test_the_depth_stands_for_a_thickness_that_is_unknown() -> None:
     assert [finding.b for finding in listed(REPORT)] == ["deep", "thin", "known"]
 
 
-@pytest.mark.parametrize("form", ["sarif", "github", "markdown"])
+@pytest.mark.parametrize("form", ["sarif", "github"])
 def test_formats_of_ci(form: str) -> None:
     assert order("".join(pieces({"all": REPORT}, form)), "{} and {}") == ["deep", "thin", "known"]
 
 
+def test_markdown_lists_no_notes() -> None:
+    text = "".join(pieces({"all": REPORT}, "markdown"))
+    assert order(text, "| block and {1}") == ["deep", "thin"]
+    assert "1 more row: see the JSON report." in text
+
+
 def test_table_and_verdict() -> None:
-    table = render_table(REPORT, PLAIN_PAGE, explain=False, timings=False)
-    assert order(table, "{} │ {}") == ["deep", "thin", "known"]
-    assert order(of(THIN, DEEP).message, "{} and {}") == ["deep", "thin"]
+    table = render_table(REPORT, PLAIN_PAGE, explain=True, timings=False)
+    assert order(table, "{}  {}  ") == ["deep", "thin", "known"]
+    assert "worst: block and deep" in of(THIN, DEEP).message
 
 
 def order(text: str, pair: str) -> list[str]:

@@ -201,7 +201,7 @@ def test_a_clearance_that_is_not_decided_is_no_hit(tmp_path: Path, monkeypatch) 
     open_gap = f"undecided: clearance is {clearance:.9g} (--clearance), and the gap is between"
     assert f"a and b: {open_gap}" in text
     said = "INCOMPLETE: no collision was found, but 1 pair may be closer than its clearance."
-    assert f"\n{said} Next:" in text
+    assert f"\n{said}\nNext:" in text
 
 
 def test_a_touch_within_a_wide_band_may_keep_its_clearance(tmp_path: Path) -> None:
@@ -290,8 +290,8 @@ def test_the_table_tells(tmp_path: Path) -> None:
     page = Page(width=120, unicode=False, colour=False)
     text = table.render(report, page, explain=False, timings=False)
     assert "hits at 90" in text
-    assert "1 pair hits while moving." in text
-    assert "a and b, while they move: deepest at" in text
+    assert "1 pair hits in motion." in text
+    assert "a and b: deepest at" in text
 
 
 def test_a_sweep_is_not_certified(tmp_path: Path) -> None:
