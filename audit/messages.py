@@ -165,7 +165,8 @@ def _unmeasured(report: Report) -> list[str]:
     measured = sum(finding.depth is not None for finding in overlaps)
     if not measured:
         return []
-    said = f"figures of the {measured:,} worst of {len(overlaps):,} failing pairs"
+    which = "the worst" if measured == 1 else f"the {measured:,} worst"
+    said = f"figures of {which} of {len(overlaps):,} failing pairs"
     return [f"{said}; --depth measures all"]
 
 
