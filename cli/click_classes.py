@@ -30,7 +30,7 @@ SECTIONS = {
     "rules between baseline fail_on accept exit_zero pins",
     "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
     "quiet color",
-    "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "
+    "Accuracy and limits": "accuracy method threshold width budget "
     "max_motion iterations repeat budget seconds seconds_per_file megabytes_per_file "
     "scene_seconds scene_megabytes engine scheduler jobs cache",
 }

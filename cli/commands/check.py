@@ -154,11 +154,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @option.setting("surface_tolerance", type=length, note="of the scene, else 0")
 @option.setting("accuracy", type=click.Choice(ACCURACIES), metavar="LEVEL")
 @option.method
-@option.setting("depth_width", type=WIDTH, metavar="RATIO")
-@option.setting(
-    "depth_budget", type=click.FloatRange(0, MOST_BUDGET, min_open=True), metavar="SECONDS"
-)
-@option.setting("thickness_width", type=WIDTH, metavar="RATIO")
+@option.setting("width", type=WIDTH, metavar="RATIO")
+@option.setting("budget", type=click.FloatRange(0, MOST_BUDGET, min_open=True), metavar="SECONDS")
 @option.planar
 @scene_option.split
 @option.setting("fail_on", type=click.Choice(FAIL_ON), metavar="SEVERITY")

@@ -217,7 +217,7 @@ def _open(report: Report) -> str:
     if _depends_on_holes(report, asked):
         return "close the holes, or give --allow-open if they are meant to be open"
     if any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
-        return "a larger --depth-budget may decide it"
+        return "a larger --budget may decide it"
     return "--explain shows the steps"
 
 

@@ -150,7 +150,7 @@ def test_a_report_is_that_of_each(
         '[[rules]]\na = "a"\nb = "b"\nallowed = true\nreason = "known"\n'
         '[[rules]]\na = "none"\nb = "b"\nallowed = true\nreason = "unused"\n'
     )
-    Path("satcheck.toml").write_text("depth-width = 0.5\n")
+    Path("satcheck.toml").write_text("width = 0.5\n")
     here = scenes.parent
     satcheck("each", "scenes", "-o", "report.json", cwd=here)
     satcheck("baseline", "write", "baseline.json", "report.json", cwd=here)

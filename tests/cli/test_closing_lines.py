@@ -134,7 +134,7 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             (
                 "2 bodies, 1 pair: 1 penetrating.",
                 "INCOMPLETE: no collision beyond what rules allow was found, "
-                "but 1 pair may exceed its limits. Next: a larger --depth-budget may decide it.",
+                "but 1 pair may exceed its limits. Next: a larger --budget may decide it.",
             ),
         ),
     ],

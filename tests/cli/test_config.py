@@ -141,7 +141,7 @@ def test_show_says_where_options_come_from(folder: Path) -> None:
         ("tolerance = true\n", "satcheck.toml:1: tolerance: a text or a number expected"),
         ("jobs = 1.5\n", "satcheck.toml:1: jobs: must be a whole number, at least 0 (--no"),
         ("jobs = 'x'\n", "satcheck.toml:1: jobs: must be a whole number, at least 0 (--no"),
-        ("depth-width = 1\n", "depth-width: must be a number, more than 0, less than 1 (--no"),
+        ("width = 1\n", "width: must be a number, more than 0, less than 1 (--no"),
         ("clearance = '2 miles'\n", "satcheck.toml:1: clearance: "),
         ("rules = [['a']]\n", "satcheck.toml:1: rules: a text or a number expected"),
         ("[each]\njobs = 1\n", "satcheck.toml:1: each: no such option"),
@@ -189,10 +189,10 @@ def test_the_schema_knows_every_option() -> None:
     assert document["properties"].keys() == options_of_commands().keys()
     sound: list[dict[str, Any]] = [
         {"tolerance": 0.5}, {"tolerance": "0.5 mm"}, {"rules": "a"}, {"rules": ["a"]},
-        {"no-cache": True}, {"jobs": 0}, {"fail-on": "note"}, {"depth-width": 0.5},
+        {"no-cache": True}, {"jobs": 0}, {"fail-on": "note"}, {"width": 0.5},
     ]  # fmt: skip
     wrong: list[dict[str, Any]] = [
-        {"tolerance": -1}, {"fail_on": "note"}, {"no-cache": 1}, {"jobs": -1}, {"depth-width": 1},
+        {"tolerance": -1}, {"fail_on": "note"}, {"no-cache": 1}, {"jobs": -1}, {"width": 1},
     ]  # fmt: skip
     check = Draft202012Validator(document)
     assert [values for values in sound if not check.is_valid(values)] == []
