@@ -116,7 +116,7 @@ def test_a_plot_has_a_line_for_each_axis_up_to_some(tmp_path: Path, pair: tuple[
 
 def test_a_plot_is_an_image_on_dark_paper_if_asked(tmp_path: Path) -> None:
     plot = tmp_path / "plot.png"
-    assert satcheck("axes", *APART, "--plot", str(plot), "--dark").code == 0
+    assert satcheck("axes", *APART, "--plot", str(plot)).code == 0
     image = imread(plot)
     assert image.shape[1] == 2 * WIDTH
     assert to_hex(image[0, 0]) == DARK.paper

@@ -144,7 +144,7 @@ def test_assets_that_are_done_have_their_report(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
     boxes(tmp_path, "a.obj", "b.obj", "hang.obj", "later.obj")
-    run = start("each", "a.obj", "b.obj", "hang.obj", "later.obj", "-j", "1")
+    run = start("batch", "a.obj", "b.obj", "hang.obj", "later.obj", "-j", "1")
     run.wait_for_answers()
     code, out, err = run.interrupted()
     assert code == 130
@@ -160,7 +160,7 @@ def test_a_report_of_assets_that_are_done_is_no_pass(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
     boxes(tmp_path, "a.obj", "hang.obj")
-    run = start("each", "a.obj", "hang.obj", "-o", "report.json")
+    run = start("batch", "a.obj", "hang.obj", "-o", "report.json")
     run.wait_for_answers()
     code, out, err = run.interrupted()
     assert (code, out) == (130, "")
@@ -176,7 +176,7 @@ def test_without_an_asset_that_is_done_there_is_no_report(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
     boxes(tmp_path, "hang.obj")
-    run = start("each", "hang.obj", "-o", "report.json")
+    run = start("batch", "hang.obj", "-o", "report.json")
     assert until(run.begun.exists)
     assert run.interrupted() == (130, "", "satcheck: interrupted\n")
     assert not (tmp_path / "report.json").exists()
@@ -204,7 +204,7 @@ def test_a_second_one_ends_what_is_still_being_written(
     boxes(tmp_path, "a.obj", "hang.obj")
     reading, writing = os.pipe()
     fill(writing)
-    run = start("each", "a.obj", "hang.obj", "-j", "1", stdout=writing)
+    run = start("batch", "a.obj", "hang.obj", "-j", "1", stdout=writing)
     run.wait_for_answers()
     run.interrupt()
     assert run.process.stderr is not None
@@ -224,8 +224,8 @@ def test_where_it_is_ignored_it_stays_ignored(
     def ignore() -> None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
-    options = ("--scene-seconds", "1", "-j", "1")
-    run = start("each", "a.obj", "hang.obj", *options, preexec_fn=ignore)
+    options = ("--limit", "scene-seconds=1", "-j", "1")
+    run = start("batch", "a.obj", "hang.obj", *options, preexec_fn=ignore)
     assert until(run.begun.exists)
     code, out, err = run.interrupted()
     assert (code, err) == (3, "")

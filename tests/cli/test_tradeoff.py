@@ -24,7 +24,7 @@ RUNGS = ("aabb", "obb", "hull", "parts", "exact", "boolean")
 
 
 def test_the_document_follows_its_schema() -> None:
-    ran = satcheck("tradeoff", *PUSHED, "--format", "json", "--repeat", "2")
+    ran = satcheck("tradeoff", *PUSHED, "--format", "json")
     assert ran.code == 0, ran.err
     Draft202012Validator(SCHEMA).validate(ran.document)
     rungs = ran.document["rungs"]
@@ -35,7 +35,9 @@ def test_the_document_follows_its_schema() -> None:
 def test_a_spent_budget_is_a_document_too_and_exits_with_three(tmp_path: Path) -> None:
     plot = tmp_path / "plot.svg"
     out = tmp_path / "report.json"
-    ran = satcheck("tradeoff", *PUSHED, "--budget", "1e-9", "--plot", str(plot), "-o", str(out))
+    ran = satcheck(
+        "tradeoff", *PUSHED, "--limit", "run-seconds=1e-9", "--plot", str(plot), "-o", str(out)
+    )
     assert ran.code == 3, ran.err
     document = json.loads(out.read_text(encoding="utf-8"))
     Draft202012Validator(SCHEMA).validate(document)
@@ -47,7 +49,7 @@ def test_a_spent_budget_is_a_document_too_and_exits_with_three(tmp_path: Path) -
 
 def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
     plot = tmp_path / "plot.svg"
-    ran = satcheck("tradeoff", *PUSHED, "--repeat", "1", "--plot", str(plot))
+    ran = satcheck("tradeoff", *PUSHED, "--plot", str(plot))
     assert ran.code == 0, ran.err
     for said in (
         *RUNGS,
@@ -65,7 +67,7 @@ def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
 
 def test_a_plot_is_an_image_on_dark_paper_if_asked(tmp_path: Path) -> None:
     plot = tmp_path / "plot.png"
-    ran = satcheck("tradeoff", *PUSHED, "--budget", "1e-9", "--plot", str(plot), "--dark")
+    ran = satcheck("tradeoff", *PUSHED, "--limit", "run-seconds=1e-9", "--plot", str(plot))
     assert ran.code == 3, ran.err
     image = imread(plot)
     assert image.shape[1] == 2 * WIDTH
@@ -93,7 +95,6 @@ def test_the_schema_is_printed() -> None:
         (("box.obj",), "one body alone"),
         (("box.obj", "missing.obj"), "no such file"),
         (("box.obj", "cube.off", "--plot", "plot.jpg"), "drawn as .svg, .png or .pdf"),
-        (("box.obj", "cube.off", "--repeat", "0"), "--repeat"),
         (("box.obj", "cube.off", "--format", "json", "-o", "cube.off"), "overwrite an input"),
     ],
 )

@@ -11,12 +11,10 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
 
 
-def render(
-    form: str, report: Report, scene: Scene, *, split: bool = False, cache: bool = True
-) -> str | bytes:
+def render(form: str, report: Report, scene: Scene, *, split: bool = False) -> str | bytes:
     """Return the picture of a report.
 
-    scene: that the report is about. split: a page shows convex parts, too. cache: of these.
+    scene: that the report is about. split: a page shows convex parts, too.
     """
     from satcheck.cli.formats.picture.slabs import with_slabs
 
@@ -25,5 +23,5 @@ def render(
     if split and form == "html":
         from satcheck.cli.formats.picture.parts import parts_of
 
-        return cast("str", draw(report, scene, parts_of(report, scene, cache=cache)))
+        return cast("str", draw(report, scene, parts_of(report, scene)))
     return cast("str | bytes", draw(report, scene))
