@@ -150,6 +150,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
             f"{named} are scenes, each a world of its own: give one of them, or --merge"
         )
     paths = inputs.paths
+    if inputs.merge and _is_typed("merge") and sum(kind_of(each) == "scene" for each in paths) < 2:
+        talk("satcheck: note: --merge has no effect: it is about several scene files")
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
     keep_freed_memory()
@@ -178,9 +180,12 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
 def typed(read: ReadOptions) -> ReadOptions:
     """Return the options of readers if the call gives them, and not a config file, which is about
     other files, too."""
+    return read if _is_typed("read") else {}
+
+
+def _is_typed(name: str) -> bool:
     ctx = click.get_current_context(silent=True)
-    source = ctx and ctx.get_parameter_source("read")
-    return read if source is ParameterSource.COMMANDLINE else {}
+    return bool(ctx and ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE)
 
 
 def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:

@@ -238,7 +238,7 @@ def test_the_name_of_the_file_chooses_the_format(form: str, tmp_path: Path) -> N
 def test_only_a_report_has_these_formats() -> None:
     ran = satcheck("resolve", "box.obj", "box_pushed.stl", "-o", "x.sarif", cwd=SAMPLES)
     assert ran.code == 2
-    assert "table, json" in ran.err
+    assert ".scene.json, .txt, .json" in ran.err
 
 
 SCENE = """\

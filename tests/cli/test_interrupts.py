@@ -16,6 +16,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import click
 import pytest
 from jsonschema import Draft202012Validator
 
@@ -242,3 +243,14 @@ def test_while_the_command_is_still_imported(monkeypatch: pytest.MonkeyPatch) ->
     with pytest.raises(SystemExit) as stop:
         cli.main()
     assert stop.value.code == 130
+
+
+def test_an_end_of_file_in_the_code_is_no_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
+    """click reports both in the same way."""
+    from satcheck.cli import entry
+
+    def ended() -> object:
+        raise click.Abort from EOFError("the file is cut off")
+
+    monkeypatch.setattr(entry, "_call", ended)
+    assert entry._run() == 2

@@ -115,12 +115,12 @@ def test_what_resolve_writes_is_in_the_same_units(tmp_path: Path) -> None:
     (tmp_path / "c.stl").write_bytes(files.binary_stl(cube_at(160, 100)))
     given = ("a.glb", "b.3mf", "c.stl", "--units", "cm")
     assert satcheck(*given, cwd=tmp_path).code == 1
-    ran = satcheck("resolve", *given, "-o", "moved.toml", cwd=tmp_path)
+    ran = satcheck("resolve", *given, "-o", "moved.scene.json", cwd=tmp_path)
     assert ran.code == 0, ran.err
-    scene = json.loads((tmp_path / "moved.toml").read_text())
+    scene = json.loads((tmp_path / "moved.scene.json").read_text())
     assert scene["units"] == "mm"
     assert [body.get("units") for body in scene["bodies"]] == [None, None, "cm"]
-    ran = satcheck(*JSON, "moved.toml", cwd=tmp_path)
+    ran = satcheck(*JSON, "moved.scene.json", cwd=tmp_path)
     assert ran.code == 0
     sizes = [
         body["unit_scale"] for body in ran.document["bodies"] if body["unit_scale"] is not None

@@ -80,12 +80,18 @@ def test_a_wrong_scene_leaves_the_others_their_answers(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "more", [("--certificate", "--format", "json"), ("--explain",), ("--format", "html")]
+    "more", [("--certificate", "--format", "json"), ("--explain",), ("--format", "png")]
 )
 def test_what_is_about_one_world_is_refused(folder: Path, more: tuple[str, ...]) -> None:
     ran = satcheck("apart.toml", "overlap.toml", *more, cwd=folder)
     assert ran.code == 2
     assert "--merge" in ran.err
+
+
+def test_merge_that_merges_nothing_is_told(folder: Path) -> None:
+    assert "--merge has no effect" in satcheck("apart.toml", "--merge", cwd=folder).err
+    merged = satcheck("apart.toml", "overlap.toml", "--merge", cwd=folder)
+    assert "no effect" not in merged.err
 
 
 @pytest.mark.parametrize("command", ["resolve", "suggest", "tradeoff"])
