@@ -133,6 +133,8 @@ def sections(options: Sequence[click.Option]) -> dict[str, list[click.Option]]:
 def _command_first(words: list[str]) -> list[str]:
     """Return the words of a call with the command in front: options may come before its name. A
     first word that names no command is a path."""
+    if not any(is_command(word) for word in words):
+        return [DEFAULT_COMMAND, *words]
     place = 0
     while place < len(words) and words[place].startswith("-") and words[place] not in ("-", "--"):
         place += 1 + _values_after(words[place])
@@ -144,6 +146,8 @@ def _command_first(words: list[str]) -> list[str]:
 def _values_after(word: str) -> int:
     """Return how many of the words behind an option are its value. It may be of any command."""
     if "=" in word or not (word.startswith("--") or len(word) == 2):
+        return 0
+    if word in HELP_NAMES["help_option_names"]:
         return 0
     for name in (DEFAULT_COMMAND, *all_commands()):
         command = satcheck.get_command(click.Context(satcheck), name)

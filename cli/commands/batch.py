@@ -164,7 +164,10 @@ def command(
     foreign = foreign_worlds(assets.foreign)
     worlds = _worlds([*((name,) for name in assets.files), *foreign], inputs, manifest, shard)
     inputs = replace(inputs, folders=tuple(assets.folders))
-    _refuse(worlds, inputs, [*filter(None, (target.output for target in targets))], baseline)
+    files = [*filter(None, (target.output for target in targets))]
+    if results is not None and not is_url(results):
+        files.append(Path(results))
+    _refuse(worlds, inputs, files, baseline)
     if results is None:
         _refuse_without_results(worlds, resume=resume, engine=engine)
         forms = {target.form for target in targets}

@@ -210,7 +210,7 @@ def test_parts_of_bodies_are_one_file(folder: Path) -> None:
     assert sum(line.startswith("v ") for line in lines) == 8 * len(NAMES)
 
 
-@pytest.mark.parametrize("name", ["out.toml", "out.json"])
+@pytest.mark.parametrize("name", ["out.toml", "out.scene.json"])
 def test_a_scene_that_is_written_has_the_same_names(
     folder: Path, tmp_path: Path, name: str
 ) -> None:

@@ -189,7 +189,7 @@ def test_scenes_that_are_done_are_kept(start: Callable[..., Started], tmp_path: 
     run.wait_for_answers()
     code, _, err = run.interrupted()
     assert code == 130
-    assert "1 of 2 scenes are recorded in results.jsonl.part" in err
+    assert "1 of 2 assets are recorded in results.jsonl.part" in err
     (line,) = (tmp_path / "results.jsonl.part").read_text().splitlines()
     assert json.loads(line)["files"] == ["a.obj"]
     boxes(tmp_path, "b.obj")
