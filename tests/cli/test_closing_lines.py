@@ -163,7 +163,7 @@ def test_an_open_mesh_that_decides_names_the_option() -> None:
             (
                 "2 bodies, 1 pair: 1 penetrating.",
                 "INCOMPLETE: no collision beyond what rules allow was found, "
-                "but 1 pair may exceed its limits. Next: a larger --depth-budget may decide it.",
+                "but 1 pair may exceed its limits. Next: a larger --budget may decide it.",
             ),
         ),
     ],
