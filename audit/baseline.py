@@ -358,5 +358,5 @@ def asset_key(asset: str, baseline: Path) -> str:
 
 def names_in_baseline(paths: Sequence[str], baseline: Path) -> tuple[str, ...]:
     """What a baseline may call the input of a plain check. One file is the asset that
-    `satcheck each` checks: its bodies have the same ids."""
+    `satcheck batch` checks: its bodies have the same ids."""
     return (asset_key(paths[0], baseline), "") if len(paths) == 1 else ("",)

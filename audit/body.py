@@ -175,11 +175,11 @@ class SharedMesh:
 
     def _decomposition(self, settings: Settings) -> Decomposition | DecompositionError:
         """A failure is kept, too, and not tried again for the next pair."""
-        from satcheck.decompose import Cache, DecompositionError, decompose
+        from satcheck.decompose import Cache, DecompositionError, decompose, user_cache
 
         self._decompositions += 1
         directory = settings.cache_directory
-        cache = Cache(None if directory is None else Path(directory)) if settings.cache else None
+        cache = user_cache() if directory is None else Cache(Path(directory))
         try:
             with step(f"splitting {self.file.path}"):
                 return decompose(
@@ -188,7 +188,7 @@ class SharedMesh:
                     seed=settings.part_seed,
                     seconds=settings.part_seconds,
                     megabytes=settings.part_megabytes,
-                    cache=cache,
+                    cache=cache if settings.cache else None,
                 )
         except DecompositionError as error:
             return error

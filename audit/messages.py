@@ -28,7 +28,6 @@ from satcheck.audit.words import (
     with_unit,
     worst_first,
 )
-from satcheck.report.baseline import HELD
 from satcheck.report.report import BEYOND_BUDGET, INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
 from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
 from satcheck.scene.units import unit_of
@@ -165,7 +164,8 @@ def _unmeasured(report: Report) -> list[str]:
     measured = sum(finding.depth is not None for finding in overlaps)
     if not measured:
         return []
-    said = f"figures of the {measured:,} worst of {len(overlaps):,} failing pairs"
+    which = "the worst" if measured == 1 else f"the {measured:,} worst"
+    said = f"figures of {which} of {len(overlaps):,} failing pairs"
     return [f"{said}; --depth measures all"]
 
 
@@ -302,7 +302,7 @@ def _left_open(report: Report) -> list[str]:
     """`1 pair is indeterminate`: what was asked and could not be decided."""
     summary, said = report.summary, []
     undecided = sum(
-        f.undecided == "relation" and f.baseline_state not in HELD for f in report.findings
+        f.undecided == "relation" and f.baseline_state != "accepted" for f in report.findings
     )
     undecided += unlisted_indeterminate(summary.pairs, report.findings)
     if undecided:

@@ -91,7 +91,7 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
     @property
     def work(self) -> int:
         """The most steps of one search of a depth."""
-        return math.ceil(self.depth_budget * WORK_PER_SECOND)
+        return math.ceil(self.budget * WORK_PER_SECOND)
 
     @property
     def thickness_work(self) -> int:

@@ -147,7 +147,7 @@ def _mebibytes(pid: int) -> int:
 def run_all(folder: Path) -> None:
     """One batch of all scenes. Prints the memory in each fifth of the run."""
     words = command("batch", "s*.toml", "-o", "results.jsonl", "-j", str(SLOTS))
-    limits = ["--scene-seconds", str(SECONDS), "--scene-megabytes", str(MEBIBYTES)]
+    limits = ["--limit", f"scene-seconds={SECONDS},scene-megabytes={MEBIBYTES}"]
     began = time.perf_counter()
     process = subprocess.Popen(
         [*words, *limits], cwd=folder, env={**os.environ, "PYTHONPATH": str(PLANTED)}

@@ -6,7 +6,7 @@
 PAIRS.json: {"pairs": [{"id", "a": {"mesh", "transform"}, "b": {...}}, ...]}, meshes relative to the
 file, transforms row-major 4x4; a lower bound above truth.best_known_length, where given, is wrong.
 Every pair that overlaps and is not wholly convex is searched from the way out of its hulls. Printed
-per budget, in seconds of `depth_budget`: how wide the intervals are, how much CPU time they took,
+per budget, in seconds of `budget`: how wide the intervals are, how much CPU time they took,
 and how many contradict the best known way out. --closed: only pairs of solids. --pairs: a line for
 each pair as well, with the last budget. --thickness: then, with the default budgets, the time of a
 depth, of a thickness, and of both, the least of three runs. bench/overlapping_pairs.py makes files

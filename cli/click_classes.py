@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from satcheck.cli import exit_codes
 from satcheck.cli.commands import all_commands, command_named, is_command
 from satcheck.cli.output import Document
 
@@ -16,23 +17,22 @@ HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_conten
 
 
 # Help with fewer options has no headings.
-MANY = 15
-OTHER = "Other options"
+MANY = 19
+OTHER = "Options of every command"
+_ALL, _BARE = "satcheck.help-all", "satcheck.bare"
 # The range of a number, as click writes it: ` [x>=1]`, `; 0<x<1`.
 _RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
 # The names of the parameters, in the order of the help.
 SECTIONS = {
-    "What to check": "bodies pairs manifest shard exclude changed_since split merge planar units "
+    "What to check": "bodies pairs manifest shard exclude since split merge planar units "
     "allow_open package packages geometry read pose state "
-    "joint_path sample seed root allow_outside",
+    "joint_path sample seed asset root allow_outside",
     "What to compute": "depth contacts components volume never cross_check certificate",
     "Tolerances and rules": "max_thickness max_depth clearance tolerance surface_tolerance "
     "rules between baseline fail_on accept exit_zero pins",
-    "Output": "output parts_out resume form png glb folder scene_out plot dark top explain timings "
-    "quiet color",
-    "Accuracy and limits": "accuracy method threshold depth_width depth_budget thickness_width "
-    "max_motion iterations repeat budget seconds seconds_per_file megabytes_per_file "
-    "scene_seconds scene_megabytes engine scheduler jobs cache",
+    "Output": "outputs output resume form folder parts plot top explain timings quiet",
+    "Accuracy and limits": "accuracy method threshold width budget max_motion iterations limit "
+    "engine scheduler jobs",
 }
 DEFAULT_COMMAND = "check"
 
@@ -51,8 +51,19 @@ class Command(click.Command):
 
             refuse_value(ctx, error)
 
+    def __init__(self, *args: Any, daily: str = "", **more: Any) -> None:
+        """daily: the names of the options that --help shows; --help-all shows all."""
+        super().__init__(*args, **more)
+        self.daily = daily.split()
+        if daily:
+            self.params.append(_help_all())
+
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         options = [p for p in self.get_params(ctx) if isinstance(p, click.Option) and not p.hidden]
+        if self.daily and _ALL not in ctx.meta:
+            by_name = {option.name: option for option in options}
+            named = (*self.daily, "help_all", "help")
+            options = [by_name[name] for name in named if name in by_name]
         groups = sections(options) if len(options) >= MANY else {"Options": options}
         for heading, chosen in groups.items():
             with formatter.section(heading):
@@ -61,6 +72,23 @@ class Command(click.Command):
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         return _written(super().get_help_option(ctx))
+
+
+def _help_all() -> click.Option:
+    return click.Option(
+        ["--help-all"],
+        is_flag=True,
+        is_eager=True,
+        expose_value=False,
+        callback=_show_all,
+        help="Show all options, by theme, and exit.",
+    )
+
+
+def _show_all(ctx: click.Context, option: click.Parameter, wanted: bool) -> None:
+    if wanted:
+        ctx.meta[_ALL] = True
+    _show_help(ctx, option, wanted)
 
 
 class Group(click.Group):
@@ -81,7 +109,8 @@ def _written(option: click.Option | None) -> click.Option | None:
 def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted and not ctx.resilient_parsing:
         Document().write(f"{ctx.get_help()}\n")
-        ctx.exit()
+        # Without a word nothing was checked: that is no success.
+        ctx.exit(exit_codes.ERROR if _BARE in ctx.meta else exit_codes.CLEAN)
 
 
 def brief(record: tuple[str, str]) -> tuple[str, str]:
@@ -101,11 +130,39 @@ def sections(options: Sequence[click.Option]) -> dict[str, list[click.Option]]:
     return {heading: chosen for heading, chosen in made.items() if chosen}
 
 
+def _command_first(words: list[str]) -> list[str]:
+    """Return the words of a call with the command in front: options may come before its name. A
+    first word that names no command is a path."""
+    if not any(is_command(word) for word in words):
+        return [DEFAULT_COMMAND, *words]
+    place = 0
+    while place < len(words) and words[place].startswith("-") and words[place] not in ("-", "--"):
+        place += 1 + _values_after(words[place])
+    if place < len(words) and is_command(words[place]):
+        return [words[place], *words[:place], *words[place + 1 :]]
+    return [DEFAULT_COMMAND, *words]
+
+
+def _values_after(word: str) -> int:
+    """Return how many of the words behind an option are its value. It may be of any command."""
+    if "=" in word or not (word.startswith("--") or len(word) == 2):
+        return 0
+    if word in HELP_NAMES["help_option_names"]:
+        return 0
+    for name in (DEFAULT_COMMAND, *all_commands()):
+        command = satcheck.get_command(click.Context(satcheck), name)
+        for option in command.params if command else ():
+            if isinstance(option, click.Option) and word in (*option.opts, *option.secondary_opts):
+                return 0 if option.is_flag else option.nargs
+    return 0
+
+
 class _Satcheck(Group):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        if not args or not is_command(args[0]):
-            args = [DEFAULT_COMMAND, *args]
-        return super().parse_args(ctx, args)
+        if not args:
+            ctx.meta[_BARE] = True
+            args = ["--help"]
+        return super().parse_args(ctx, _command_first(args))
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         del ctx

@@ -13,6 +13,7 @@ import click
 from click.core import ParameterSource
 from msgspec import Struct
 
+from satcheck.cli.option import LIMITS, LimitsType
 from satcheck.cli.output import talk
 from satcheck.core.errors import SatcheckError
 
@@ -20,32 +21,23 @@ if TYPE_CHECKING:
     from satcheck.report.settings import StatedConfig
 
 # The commands that take options from a config file.
-COMMANDS = ("check", "each", "batch")
+COMMANDS = ("check", "batch")
+CONFIG, PROJECT = "satcheck.toml", "pyproject.toml"
 _META, _FOUND = "satcheck.config", "satcheck.config-was-found"
 # What a file that was merely found must not do: whoever wrote it may not be the one who calls.
-_BY_HAND = frozenset(("output", "png", "glb", "exit-zero", "allow-outside"))
-_LIMITS = frozenset(
-    ("seconds-per-file", "megabytes-per-file", "scene-seconds", "scene-megabytes", "depth-budget")
-)
+_BY_HAND = frozenset(("output", "exit-zero", "allow-outside"))
 # Options that decide what passes.
 _DECIDING = (
-    *("tolerance", "surface-tolerance", "clearance", "max-thickness", "max-depth", "read"),
+    *("tolerance", "surface-tolerance", "max-thickness", "max-depth", "clearance", "read"),
     *("accuracy", "fail-on", "allow-open", "accept", "rules", "between", "baseline", "never"),
     *("units", "geometry", "planar", "pose", "state", "exclude"),
 )
-
-
 # About one call, not about a check.
-_NOT_HERE = frozenset(("help", "version", "debug", "config", "no_config"))
-# Of a pose that is given as text, not as a file.
-_OPENING = ("{", "[")
-CONFIG, PROJECT = "satcheck.toml", "pyproject.toml"
-MOST_BYTES = 1 << 20
-_TABLE = ("tool", "satcheck")
+_NOT_HERE = frozenset(("help", "help_all", "version", "debug", "config", "no_config"))
+_MOST_BYTES = 1 << 20
 # What every usual spelling of [tool.satcheck] contains: other files are not parsed.
 _MAY_HAVE_TABLE = re.compile(
-    rb"""tool["'\s]*\.["'\s]*satcheck|^[ \t]*\[\s*["']?tool["']?\s*\]|^[ \t]*["']?tool["']?\s*=""",
-    re.MULTILINE,
+    rb"""tool["'\s]*\.["'\s]*satcheck|^\s*\[?\s*["']?tool["']?\s*[]=]""", re.MULTILINE
 )
 
 
@@ -57,10 +49,6 @@ class ConfigFile(Struct, frozen=True):
     keys: tuple[str, ...]
     values: Mapping[str, Any]
 
-    @property
-    def folder(self) -> Path:
-        return Path(self.path).parent
-
     def where(self, key: str) -> str:
         """`satcheck.toml:3`."""
         from satcheck.scene.scene_file.text import innermost, lines_of
@@ -70,11 +58,11 @@ class ConfigFile(Struct, frozen=True):
 
     def refused(self, key: str, reason: str) -> SatcheckError:
         """To be raised."""
-        return bad_config(f"{self.where(key)}: {key}: {reason}")
+        return _bad_config(f"{self.where(key)}: {key}: {reason}")
 
 
 def take_config(ctx: click.Context, given: str | None) -> None:
-    """Makes the values of the config file defaults of this call. given: the file; None: the nearest
+    """Make the values of the config file defaults of this call. given: the file; None: the nearest
     one, if there is any. Raises SatcheckError: `bad-config`."""
     path = _nearest() if given is None else Path(given)
     if path is None:
@@ -82,19 +70,17 @@ def take_config(ctx: click.Context, given: str | None) -> None:
     file = read_config(path)
     options = configurable(ctx.command)
     _refuse_strangers(file, set(options))
-    defaults = {}
+    ctx.default_map, ctx.meta[_META], ctx.meta[_FOUND] = {}, file, given is None
     for key in file.values.keys() & options.keys():
+        option, raw = options[key], file.values[key]
         if given is None:
-            _refuse_found(file, key, options[key])
+            _refuse_found(file, key, option)
         try:
-            value = value_of(options[key], file.values[key], file.folder)
+            value = value_of(option, raw, Path(file.path).parent)
         except ValueError as error:
             raise file.refused(key, str(error)) from None
         if value is not None:
-            defaults[options[key].name] = value
-    ctx.default_map = defaults
-    ctx.meta[_META] = file
-    ctx.meta[_FOUND] = given is None
+            ctx.default_map[option.name] = value
 
 
 def _refuse_found(file: ConfigFile, key: str, option: click.Option) -> None:
@@ -102,9 +88,14 @@ def _refuse_found(file: ConfigFile, key: str, option: click.Option) -> None:
     raw = file.values[key]
     if key in _BY_HAND and raw is not False:
         raise file.refused(key, f"give --{key} yourself, or name the file: --config {file.path}")
-    is_number = isinstance(raw, int | float) and not isinstance(raw, bool)
-    if key in _LIMITS and is_number and raw > option.default:
-        message = f"above the default {option.default}: name the file, --config {file.path}"
+    default = option.default if key == "budget" and isinstance(raw, float | int) else None
+    if isinstance(option.type, LimitsType):
+        for text in _limits(option.type, _listed(raw)):
+            for name, value in option.type.convert(text, option, None).items():
+                if value > LIMITS[name].default:
+                    raw, default = value, LIMITS[name].default
+    if default is not None and raw > default:
+        message = f"above the default {default:g}: name the file, --config {file.path}"
         raise file.refused(key, message)
 
 
@@ -148,12 +139,23 @@ def origin(ctx: click.Context, name: str) -> str | None:
 
 def refuse_value(ctx: click.Context, error: click.BadParameter) -> NoReturn:
     """Raises `bad-config` for a value that click refuses, if the config file has it."""
-    file = config_of(ctx)
-    if file is None or not isinstance(error.param, click.Option):
+    file, option = config_of(ctx), error.param
+    if file is None or not isinstance(option, click.Option) or not is_from_config(ctx, option):
         raise error
-    if not is_from_config(ctx, error.param):
-        raise error
-    raise file.refused(key_of(error.param), number_expected(error.param) or error.message)
+    raise file.refused(key_of(option), _number_expected(option) or error.message)
+
+
+def _number_expected(option: click.Option) -> str | None:
+    """`must be a whole number, at least 0`; None: not of a number in a range."""
+    kind = option.type
+    if not isinstance(kind, click.IntRange | click.FloatRange):
+        return None
+    words = ["must be a whole number" if isinstance(kind, click.IntRange) else "must be a number"]
+    if kind.min is not None:
+        words.append(f"{'more than' if kind.min_open else 'at least'} {kind.min}")
+    if kind.max is not None:
+        words.append(f"{'less than' if kind.max_open else 'at most'} {kind.max}")
+    return ", ".join(words)
 
 
 def _nearest() -> Path | None:
@@ -177,9 +179,45 @@ def nearest_config(folder: Path) -> Path | None:
 
 
 def _has_table(path: Path) -> bool:
-    data = text_of(path)
+    data = _bytes(path)
     tools = _parsed(path, data).get("tool") if _MAY_HAVE_TABLE.search(data) else None
     return isinstance(tools, dict) and "satcheck" in tools
+
+
+def read_config(path: Path) -> ConfigFile:
+    data = _bytes(path)
+    table: Any = _parsed(path, data)
+    keys = ("tool", "satcheck") if path.name == PROJECT else ()
+    for key in keys:
+        table = table.get(key) if isinstance(table, dict) else None
+    if not isinstance(table, dict):
+        raise _bad_config(f"{path}: there is no table [tool.satcheck]")
+    return ConfigFile(path.as_posix(), data.decode(), keys, table)
+
+
+def _bytes(path: Path) -> bytes:
+    from satcheck.scene.opening import read_whole
+
+    try:
+        return read_whole(str(path), path, _MOST_BYTES)
+    except SatcheckError as error:
+        raise _bad_config(str(error)) from None
+
+
+def _parsed(path: Path, data: bytes) -> dict[str, Any]:
+    import tomllib
+
+    from satcheck.scene.words import why_unreadable
+
+    try:
+        return tomllib.loads(data.decode())
+    except (ValueError, RecursionError) as error:
+        raise _bad_config(f"{path}: not readable TOML: {why_unreadable(error)}") from None
+
+
+def _bad_config(message: str) -> SatcheckError:
+    """To be raised."""
+    return SatcheckError("bad-config", f"{message} (--no-config ignores config files)")
 
 
 def options_of_commands() -> dict[str, click.Option]:
@@ -188,58 +226,6 @@ def options_of_commands() -> dict[str, click.Option]:
     for name in COMMANDS:
         options |= configurable(import_module(f"satcheck.cli.commands.{name}").command)
     return options
-
-
-def _refuse_strangers(file: ConfigFile, known: set[str]) -> None:
-    """Keys of no command. Keys of the other command are left to it."""
-    if file.values.keys() <= known:
-        return
-    from satcheck.scene.words import meant
-
-    known = set(options_of_commands())
-    strangers = (key for key in file.values if key not in known)
-    errors = [file.refused(key, f"no such option{meant(key, known)}") for key in strangers]
-    for error in errors[:1]:
-        error.others = tuple(errors[1:])
-        raise error
-
-
-def read_config(path: Path) -> ConfigFile:
-    """Raises SatcheckError: `bad-config`."""
-    data = text_of(path)
-    document = _parsed(path, data)
-    keys = _TABLE if path.name == PROJECT else ()
-    table: Any = document
-    for key in keys:
-        table = table.get(key) if isinstance(table, dict) else None
-    if not isinstance(table, dict):
-        raise bad_config(f"{path}: there is no table [tool.satcheck]")
-    return ConfigFile(path.as_posix(), data.decode(), keys, table)
-
-
-def text_of(path: Path) -> bytes:
-    """Raises as `read_config`."""
-    from satcheck.scene.opening import read_whole
-
-    try:
-        return read_whole(str(path), path, MOST_BYTES)
-    except SatcheckError as error:
-        raise bad_config(str(error)) from None
-
-
-def bad_config(message: str) -> SatcheckError:
-    """To be raised."""
-    return SatcheckError("bad-config", f"{message} (--no-config ignores config files)")
-
-
-def _parsed(path: Path, data: bytes) -> dict[str, Any]:
-    from satcheck.scene.scene_file.text import parse_toml
-    from satcheck.scene.words import why_unreadable
-
-    try:
-        return parse_toml(data.decode())
-    except (ValueError, RecursionError) as error:
-        raise bad_config(f"{path}: not readable TOML: {why_unreadable(error)}") from None
 
 
 def configurable(command: click.Command) -> dict[str, click.Option]:
@@ -255,37 +241,48 @@ def key_of(option: click.Option) -> str:
     return max(option.opts, key=len).lstrip("-")
 
 
-def is_inverted(option: click.Option) -> bool:
-    """A flag that turns something off: --no-cache."""
-    return option.flag_value is False
+def _refuse_strangers(file: ConfigFile, known: set[str]) -> None:
+    """Keys of no command. Keys of the other command are left to it."""
+    if file.values.keys() <= known:
+        return
+    from satcheck.scene.words import meant
+
+    known = set(options_of_commands())
+    errors = [
+        file.refused(key, f"no such option{meant(key, known)}")
+        for key in file.values
+        if key not in known
+    ]
+    for error in errors[:1]:
+        error.others = tuple(errors[1:])
+        raise error
 
 
 def value_of(option: click.Option, raw: Any, folder: Path) -> Any:
-    """What click makes the value of, with paths from `folder` on; None: the default stays. Raises
-    ValueError for a value of a wrong kind."""
+    """Return what click makes the value of, with paths from `folder` on; None: the default stays.
+    Raises ValueError for a value of a wrong kind."""
     if option.is_flag:
         if not isinstance(raw, bool):
             raise ValueError("true or false expected")
-        if is_inverted(option):
-            return False if raw else None
-        return raw
-    if option.multiple:
-        items = raw if isinstance(raw, list) else [raw]
-        return tuple(_text(option, item, folder) for item in items)
-    return _text(option, raw, folder)
+        is_inverted = option.flag_value is False  # --no-timings
+        return (False if raw else None) if is_inverted else raw
+    texts = [_text(option, each, folder) for each in _listed(raw)]
+    if isinstance(option.type, LimitsType):
+        texts = _limits(option.type, texts)
+    if not option.multiple and isinstance(raw, list):
+        raise ValueError("a text or a number expected")
+    return tuple(texts) if option.multiple else texts[0]
 
 
-def number_expected(option: click.Option) -> str | None:
-    """`must be a whole number, at least 0`; None: not of a number in a range."""
-    kind = option.type
-    if not isinstance(kind, click.IntRange | click.FloatRange):
-        return None
-    words = ["must be a whole number" if isinstance(kind, click.IntRange) else "must be a number"]
-    if kind.min is not None:
-        words.append(f"{'more than' if kind.min_open else 'at least'} {kind.min}")
-    if kind.max is not None:
-        words.append(f"{'less than' if kind.max_open else 'at most'} {kind.max}")
-    return ", ".join(words)
+def _listed(raw: Any) -> list[Any]:
+    return raw if isinstance(raw, list) else [raw]
+
+
+def _limits(kind: LimitsType, texts: list[Any]) -> list[str]:
+    """Return the limits that this command has. Those of the other command are left to it."""
+    each = [part for text in texts for part in str(text).split(",")]
+    others = LIMITS.keys() - set(kind.names)
+    return [part for part in each if part.partition("=")[0].strip() not in others]
 
 
 def _text(option: click.Option, raw: Any, folder: Path) -> str:
@@ -296,6 +293,6 @@ def _text(option: click.Option, raw: Any, folder: Path) -> str:
         name, equals, place = text.partition("=")
         return f"{name}={folder / place}" if equals and place else text
     is_path = isinstance(option.type, click.Path) and text != "-"
-    if is_path or (option.name == "pose" and not text.lstrip().startswith(_OPENING)):
+    if is_path or (option.name == "pose" and not text.lstrip().startswith(("{", "["))):
         return str(folder / text)
     return text

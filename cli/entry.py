@@ -37,7 +37,9 @@ def _run() -> int:
     stdout = sys.stdout
     try:
         result = _call()
-    except (KeyboardInterrupt, click.Abort):
+    except (KeyboardInterrupt, click.Abort) as stop:
+        if isinstance(stop.__cause__, EOFError):  # click takes it for an interrupt
+            return _failed(_internal(stop.__cause__), debug)
         talk("satcheck: interrupted")
         return exit_codes.INTERRUPTED
     except SystemExit as stop:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -34,3 +35,11 @@ def for_assets(verdict: AssetVerdict, *, exit_zero: bool) -> int:
     """By the worst verdict; exit_zero forgives findings only."""
     code = _BY_VERDICT[verdict]
     return CLEAN if exit_zero and code == FINDINGS else code
+
+
+def for_counts(verdicts: Counter[AssetVerdict], *, exit_zero: bool) -> int:
+    """By the worst of many verdicts; with exit_zero by the worst that is no finding, as what is not
+    checked never passes."""
+    from satcheck.report.assets import worst_verdict
+
+    return _BY_VERDICT[worst_verdict({**verdicts, "fail": 0} if exit_zero else verdicts)]

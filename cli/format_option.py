@@ -22,20 +22,25 @@ from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.output import Document, Page
 from satcheck.core.plugins import failures
 from satcheck.report.json import document as json_document
-from satcheck.scene.files.readers import reader_of
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 _BCF_2 = ".bcfzip"
-# Documents of other kinds, by the end of their names.
-_NO_REPORTS = {".svg", ".pdf", ".toml", ".yaml", _BCF_2}
+STANDARD_OUTPUT = Path("-")
+
+
+class Target(Struct, frozen=True):
+    """A document to write. output: its file; None: standard output."""
+
+    form: str
+    output: Path | None
 
 
 class _FormatChoice(click.Choice[str]):
     """A name of a format, also one that another package registers."""
 
     def __init__(self, kinds: tuple[Kind, ...], also: Iterable[str]) -> None:
-        super().__init__([*formats(kinds), *also])
+        super().__init__(dict.fromkeys([*formats(kinds), *also]))
         self._kinds = kinds
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
@@ -49,16 +54,14 @@ class _FormatChoice(click.Choice[str]):
 
 def format_option(
     kinds: tuple[Kind, ...],
-    default: str = "as the file of -o ends, otherwise table",
-    also: Mapping[str, str] = {},
+    default: str = "as FILE ends, else table",
+    also: Mapping[str, Format] = {},
 ) -> Callable[[Command], Command]:
     """Return the option --format of a command that writes formats of these kinds. also: further
-    formats, and what each is."""
-    known = formats(kinds)
-    what = {name: each.about for name, each in known.items() if each.about} | dict(also)
-    about = ", ".join(f"{name} is {text}" for name, text in what.items())
-    names = ", ".join([*known, *also])
-    said = f"{names}{f'; {about}' if about else ''}.  [default: {default}]"
+    formats, and what this command means by a name."""
+    known = {**formats(kinds), **also}
+    about = ", ".join(f"{name} is {each.about}" for name, each in known.items() if each.about)
+    said = f"{', '.join(known)}{f'; {about}' if about else ''}.  [default: {default}]"
     choice = _FormatChoice(kinds, also)
     return click.option("--format", "form", type=choice, metavar="FORMAT", help=said)
 
@@ -66,36 +69,61 @@ def format_option(
 form_option = format_option(PLAIN, "json if the file of -o ends in .json, otherwise table")
 
 
+def targets_of(
+    form: str | None,
+    outputs: Sequence[Path],
+    kinds: tuple[Kind, ...],
+    also: Mapping[str, Format] = {},
+) -> tuple[Target, ...]:
+    """Return the documents that a call asks for: one for each -o, else one on standard output. The
+    form is that of standard output, or of the only file. Raises as `form_of`."""
+    if outputs and _is_overridden("form", "outputs"):
+        form = None
+    if not outputs:
+        outputs = (STANDARD_OUTPUT,)
+    is_shown = STANDARD_OUTPUT in outputs
+    if form is not None and len(outputs) > 1 and not is_shown:
+        raise click.UsageError("--format is about one document, and several files are named")
+    targets = []
+    for path in outputs:
+        output = None if path == STANDARD_OUTPUT else path
+        own = None if is_shown and output is not None else form
+        targets.append(Target(form_of(own, output, kinds, also), output))
+    return tuple(targets)
+
+
 def form_of(
     form: str | None,
     output: Path | None,
     kinds: tuple[Kind, ...] = PLAIN,
-    also: Sequence[str] = (),
+    also: Mapping[str, Format] = {},
 ) -> str:
     """Return the format: as given, else as the name of the output file says.
 
     kinds: of formats that the command writes. also: further formats. Raises click.UsageError for a
-    name that promises another kind of document.
+    name that promises what the command does not write.
     """
     if output is not None and _is_overridden("form", "output"):
         form = None
-    ending = "" if output is None else output.suffix.lower()
-    named = format_of(ending)
-    known = (*formats(kinds), *also)
+    known = {**formats(kinds), **also}
     if form is not None and form not in known:
         raise click.UsageError(f"--format {form}: this command writes {', '.join(known)}")
-    if form is not None or output is None:
+    ending = "" if output is None else output.suffix.lower()
+    if form is not None or not ending:
         return form or "table"
     if ending == _BCF_2 and "bcf" in known:
         raise click.UsageError(f"{output}: BCF 2.1 is not written: name the file .bcf for BCF 3.0")
-    is_other = named is None and (ending in _NO_REPORTS or reader_of(ending) is not None)
-    chosen = "table" if named is None else named.name
-    if is_other or chosen not in known:
-        raise click.UsageError(
-            f"{output}: this command writes {', '.join(known)}: give one of them with --format, "
-            "or name the file .json"
-        )
-    return chosen
+    own = next((each for each in also.values() if ending in each.endings), None)
+    named = own or format_of(ending)
+    if named is None or named.name not in {**formats(kinds), **also}:
+        raise click.UsageError(f"{output}: {unknown_ending(known.values())}")
+    return named.name
+
+
+def unknown_ending(known: Iterable[Format]) -> str:
+    """`this command writes .txt, .json or .csv: end the name so, or give --format`."""
+    *endings, last = (each.endings[0] for each in known if each.endings)
+    return f"this command writes {', '.join(endings)} or {last}: end the name so, or give --format"
 
 
 def _is_overridden(name: str, typed: str) -> bool:
@@ -107,6 +135,23 @@ def _is_overridden(name: str, typed: str) -> bool:
         and ctx.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
         and ctx.get_parameter_source(typed) is ParameterSource.COMMANDLINE
     )
+
+
+def product_and_report(
+    outputs: Sequence[Path], endings: tuple[str, ...], form: str | None
+) -> tuple[Path | None, Path | None]:
+    """Return the file for what a command makes, whose name ends so, and that of its report. Raises
+    click.UsageError for two of a kind, and for another ending."""
+    products = [path for path in outputs if path.name.lower().endswith(endings)]
+    reports = [path for path in outputs if path not in products]
+    for same in (products, reports):
+        if len(same) > 1:
+            raise click.UsageError(f"-o {same[1]}: {same[0]} is named for that")
+    product, report = (next(iter(each), None) for each in (products, reports))
+    known = (*endings, *(end for each in formats(PLAIN).values() for end in each.endings))
+    if report is not None and form is None and report.suffix.lower() not in ("", *known):
+        raise click.UsageError(f"{report}: this command writes {', '.join(known)}: end the name so")
+    return product, None if report == STANDARD_OUTPUT else report
 
 
 def plain_call(

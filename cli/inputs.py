@@ -12,6 +12,7 @@ from click.core import ParameterSource
 from msgspec import Struct
 
 from satcheck.audit.words import counted
+from satcheck.cli.option import default_limits
 from satcheck.cli.output import cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
@@ -28,8 +29,6 @@ from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.opening import (
     ANYWHERE,
-    DEFAULT_MEGABYTES_PER_FILE,
-    DEFAULT_SECONDS_PER_FILE,
     is_folder,
 )
 
@@ -60,8 +59,7 @@ class Inputs(Struct, frozen=True):
     joint_path: str | None = None
     read: ReadOptions = {}
     merge: bool = False
-    seconds_per_file: float = DEFAULT_SECONDS_PER_FILE
-    megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE
+    limit: Mapping[str, float] = {}
 
     @classmethod
     def taken_from(cls, options: dict[str, Any]) -> Self:
@@ -72,13 +70,17 @@ class Inputs(Struct, frozen=True):
     @property
     def limits(self) -> dict[str, float | int]:
         """For reading a file, as a report states them."""
-        return {
-            "seconds_per_file": self.seconds_per_file,
-            "megabytes_per_file": self.megabytes_per_file,
-        }
+        seconds, megabytes = self._of_file
+        return {"seconds_per_file": seconds, "megabytes_per_file": megabytes}
+
+    @property
+    def _of_file(self) -> tuple[float, int]:
+        limit = default_limits("seconds", "megabytes") | dict(self.limit)
+        return float(limit["seconds"]), int(limit["megabytes"])
 
     @property
     def load_options(self) -> LoadOptions:
+        seconds, megabytes = self._of_file
         return LoadOptions(
             split=self.split,
             packages={name: str(folder) for name, folder in (self.packages or {}).items()},
@@ -89,15 +91,14 @@ class Inputs(Struct, frozen=True):
             rules=tuple(map(str, self.rules)),
             between=self.between,
             reading=self.read,
-            seconds_per_file=self.seconds_per_file,
-            megabytes_per_file=self.megabytes_per_file,
+            seconds_per_file=seconds,
+            megabytes_per_file=megabytes,
         )
 
     def mesh_files(self, reading: ReadOptions) -> MeshFiles:
         """To read the mesh files of a scene once more, with the options that it has read them
         with."""
-        seconds, megabytes = self.seconds_per_file, self.megabytes_per_file
-        return MeshFiles(ReadLimits(seconds, megabytes, ANYWHERE, hashed=False, options=reading))
+        return MeshFiles(ReadLimits(*self._of_file, ANYWHERE, hashed=False, options=reading))
 
     @property
     def has_poses(self) -> bool:
@@ -149,11 +150,13 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
             f"{named} are scenes, each a world of its own: give one of them, or --merge"
         )
     paths = inputs.paths
+    if inputs.merge and _is_typed("merge") and sum(kind_of(each) == "scene" for each in paths) < 2:
+        talk("satcheck: note: --merge has no effect: it is about several scene files")
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
-        scene = inputs.load_options.load(paths, hashed=hashed, must_count=_typed(inputs.read))
+        scene = inputs.load_options.load(paths, hashed=hashed, must_count=typed(inputs.read))
     told = (issue for issue in scene.issues if tell_all or issue.severity == "error")
     for issue in dict.fromkeys(told):
         talk(f"satcheck: {issue_line(issue)}")
@@ -174,12 +177,15 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
     return scene
 
 
-def _typed(read: ReadOptions) -> ReadOptions:
+def typed(read: ReadOptions) -> ReadOptions:
     """Return the options of readers if the call gives them, and not a config file, which is about
     other files, too."""
+    return read if _is_typed("read") else {}
+
+
+def _is_typed(name: str) -> bool:
     ctx = click.get_current_context(silent=True)
-    source = ctx and ctx.get_parameter_source("read")
-    return read if source is ParameterSource.COMMANDLINE else {}
+    return bool(ctx and ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE)
 
 
 def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:
@@ -233,7 +239,7 @@ def _one_body(inputs: Inputs, scene: Scene) -> click.ClickException:
 
 
 def _refuse_first_word(word: str) -> None:
-    if word not in ("check", "help"):
+    if word not in ("check", "help", "each", "report"):
         return
     from satcheck.cli.slips import about_first_word
 

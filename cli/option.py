@@ -4,9 +4,10 @@ or without a unit, and is converted to the units of the scene."""
 
 from __future__ import annotations
 
+from collections import ChainMap
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
@@ -110,59 +111,95 @@ def those_of(other: click.Command, *, but: Sequence[str]) -> Callable[[_Command]
     return add
 
 
-# Of pictures beside a report.
-pictures = together(
-    click.option(
-        "--png",
-        type=click.Path(dir_okay=False, path_type=Path),
-        metavar="FILE",
-        help="Also write an image of the worst finding.",
-    ),
-    click.option(
-        "--glb",
-        type=click.Path(dir_okay=False, path_type=Path),
-        metavar="FILE",
-        help="Also write a 3-D model of bodies and overlaps.",
-    ),
-)
+class _Limit(NamedTuple):
+    """least: megabytes are whole numbers, seconds are more than 0."""
+
+    default: float
+    about: str
+    least: int = 0
 
 
-def seconds(name: str, default: float, text: str) -> Callable[[_Command], _Command]:
-    """A limit of time. text: its help."""
+LIMITS = {
+    "seconds": _Limit(DEFAULTS.seconds_per_file, "to read a mesh file"),
+    "megabytes": _Limit(
+        DEFAULTS.megabytes_per_file, "to read one, which may be a quarter as large", least=1
+    ),
+    "scene-seconds": _Limit(Limits().seconds, "to check an asset"),
+    "scene-megabytes": _Limit(Limits().megabytes, "for a process that checks assets", least=256),
+    "body-seconds": _Limit(DEFAULTS.part_seconds, "to split a body"),
+    "run-seconds": _Limit(60.0, "for the whole run: rungs that do not fit are not run"),
+}
+
+
+def default_limits(*names: str) -> dict[str, float]:
+    return {name: LIMITS[name].default for name in names}
+
+
+class LimitsType(click.ParamType[dict[str, float]]):
+    """Limits of these names: `seconds=60,megabytes=2048`."""
+
+    name = "limits"
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.names = names
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> dict[str, float]:
+        del param, ctx
+        stated: dict[str, float] = {}
+        for each in value.split(","):
+            name, _, text = map(str.strip, each.partition("="))
+            number: Any = text
+            if name not in self.names:
+                self.fail(f"{each!r} should be NAME=NUMBER; names: {', '.join(self.names)}")
+            least = LIMITS[name].least
+            kind = click.IntRange(least) if least else click.FloatRange(0, min_open=True)
+            try:
+                stated[name] = kind.convert(number, None, None)
+            except click.BadParameter as error:
+                self.fail(f"{name}: {error.message}")
+        return stated
+
+
+def limits(*more: str) -> Callable[[_Command], _Command]:
+    """Return the option of limits: those of reading a mesh file, and more of these names."""
+    names = ("seconds", "megabytes", *more)
+
+    def taken(
+        _: click.Context, __: click.Parameter, given: tuple[dict[str, float], ...]
+    ) -> dict[str, float]:
+        return dict(ChainMap(*reversed(given), default_limits(*names)))
+
+    said = "; ".join(f"{name}={LIMITS[name].default:g} {LIMITS[name].about}" for name in names)
     return click.option(
-        name,
-        type=click.FloatRange(0, min_open=True),
-        metavar="SECONDS",
-        default=default,
-        show_default=True,
-        help=text,
+        "--limit",
+        multiple=True,
+        type=LimitsType(names),
+        metavar="NAME=N[,...]",
+        callback=taken,
+        help=f"The most time, or MiB of memory. Names and defaults: {said}. Repeatable.",
     )
 
 
-def limits_of_worlds(what: str) -> Callable[[_Command], _Command]:
-    """Return the options that limit a check. what: what is checked, with its article."""
-    limits = Limits()
-    return together(
-        seconds("--scene-seconds", limits.seconds, f"The most time for {what}."),
-        click.option(
-            "--scene-megabytes",
-            type=click.IntRange(min=256),
-            metavar="MIB",
-            default=limits.megabytes,
-            show_default=True,
-            help="The most memory for a process that checks scenes.",
-        ),
-    )
-
-
+_FILE = click.Path(dir_okay=False, allow_dash=True, path_type=Path)
 output = click.option(
     "-o",
     "--output",
-    type=click.Path(dir_okay=False, allow_dash=True, path_type=Path),
+    type=_FILE,
     metavar="FILE",
     callback=_file_or_nothing,
     help="Write the report to FILE; - is standard output.",
 )
+
+
+def outputs(text: str) -> Callable[[_Command], _Command]:
+    """Return -o of a command that writes several documents. text: its help."""
+    return click.option(
+        "-o", "--output", "outputs", multiple=True, type=_FILE, metavar="FILE", help=text
+    )
+
+
 top = click.option(
     "--top",
     type=click.IntRange(min=1),
@@ -217,31 +254,41 @@ exclude = click.option(
     help="Files of folders to leave out, or folders, by name or path. Repeatable.",
 )
 jobs = setting("jobs", "-j", "--jobs", type=click.IntRange(min=0), metavar="N")
-cache = click.option(
-    "--no-cache",
-    "cache",
-    is_flag=True,
-    flag_value=False,
-    default=DEFAULTS.cache,
-    help="Neither read nor write the cache of convex parts.",
-)
 
 
 def _set_colour(ctx: click.Context, _: click.Parameter, choice: str) -> None:
     ctx.color = {"always": True, "never": False}.get(choice)
 
 
-# cli/output.py reads it from the context of click.
-color = click.option(
-    "--color",
-    type=click.Choice(("auto", "always", "never")),
-    metavar="WHEN",
-    default="auto",
-    expose_value=False,
-    callback=_set_colour,
-    help="Colour in tables: always, never or auto (on a terminal; NO_COLOR and FORCE_COLOR "
-    "count).  [default: auto]",
-)
+def color(*, hidden: bool = False) -> Callable[[_Command], _Command]:
+    """Return the option of colours. cli/output.py reads it from the context of click."""
+    return click.option(
+        "--color",
+        type=click.Choice(("auto", "always", "never")),
+        metavar="WHEN",
+        default="auto",
+        expose_value=False,
+        callback=_set_colour,
+        hidden=hidden,
+        help="Colour in tables: always, never or auto (on a terminal; NO_COLOR and FORCE_COLOR "
+        "count).  [default: auto]",
+    )
+
+
+def debug(*, hidden: bool = False) -> Callable[[_Command], _Command]:
+    """Return the option of tracebacks. cli/entry.py looks for it: what fails may be the reading of
+    options."""
+    return click.option(
+        "--debug",
+        is_flag=True,
+        expose_value=False,
+        hidden=hidden,
+        help="Show a traceback when satcheck fails.",
+    )
+
+
+# Options of every command, which the help of satcheck shows.
+common = together(color(hidden=True), debug(hidden=True))
 
 
 def _take_config(ctx: click.Context, _: click.Parameter, path: str | None) -> None:
@@ -279,10 +326,4 @@ no_config = click.option(
     expose_value=False,
     callback=_take_no_config,
     help="Take no options from a config file.",
-)
-debug = click.option(
-    "--debug",
-    is_flag=True,
-    expose_value=False,  # cli/entry.py looks for it: what fails may be the reading of options
-    help="Show a traceback when satcheck fails.",
 )

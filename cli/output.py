@@ -99,6 +99,8 @@ class Document:
         undecodable file names become their `\\udcXX` escapes, which JSON reads back.
         """
         if self._stream is None:
+            if utf8:  # a program waits for it; of a table the exit code is left
+                raise cannot_write("standard output", "it is closed")
             return
         if utf8 and hasattr(self._stream, "reconfigure"):
             self._stream.reconfigure(encoding="utf-8", errors=_UNDECODABLE)

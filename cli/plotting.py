@@ -19,8 +19,6 @@ _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 PLOTS = (".svg", ".png", ".pdf")
 
-dark_option = click.option("--dark", is_flag=True, help="Draw the plot on a dark background.")
-
 
 def plot_option(what: str) -> Callable[[_Command], _Command]:
     """what: a sentence without its end, such as `Draw error against time`."""

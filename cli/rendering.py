@@ -1,9 +1,10 @@
-"""The result of a check in the format that was chosen, the pictures beside it (`--png`, `--glb`),
-what stderr says about it, and options that contradict each other."""
+"""The result of a check in the formats that were chosen, what stderr says about it, and options
+that contradict each other."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +14,11 @@ from msgspec import Struct
 from satcheck.audit import Report
 from satcheck.audit.messages import of_command
 from satcheck.audit.words import counted, with_titles
+from satcheck.cli.format_option import STANDARD_OUTPUT, Target
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import MESHES, counts_line, next_step
 from satcheck.cli.inputs import Inputs, is_same_file, refuse_early
-from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
+from satcheck.cli.output import Document, Page, harmless, issue_line, talk
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
 from satcheck.report.samples import SamplesReport
@@ -26,50 +28,56 @@ from satcheck.scene import Scene
 WARNINGS = 5
 
 
-# Format -> file.
-Pictures = Mapping[str, Path]
-_OPTIONS = ("png", "glb")
-
-
 class Delivery(Struct, frozen=True):
-    """Where the report goes, in which form, and how the exit code is made. timings: state times.
-    top: how many rows a table lists at most. explain: the steps of each pair. cache: a picture may
-    read and write the cache of convex parts."""
+    """What is written, and how the exit code is made. timings: state times. top: how many rows a
+    table lists at most. explain: the steps of each pair."""
 
-    form: str
-    output: Path | None
+    targets: tuple[Target, ...]
     quiet: bool
     exit_zero: bool
     timings: bool
     top: int | None
     explain: bool = False
-    cache: bool = True
+
+    @property
+    def forms(self) -> set[str]:
+        return {target.form for target in self.targets}
 
 
 def rendered(
-    result: Report | SamplesReport, scene: Scene, to: Delivery, page: Page
+    result: Report | SamplesReport, scene: Scene, form: str, to: Delivery, page: Page
 ) -> str | bytes | Iterable[str]:
     """Return the document. Formats are imported here, as they are needed: a table brings rich."""
-    kind = kind_of(to.form)
+    kind = kind_of(form)
     if kind == "picture":
         from satcheck.cli.formats.picture import render as render_picture
 
         parts = result.settings.accuracy == "parts"
-        return render_picture(to.form, result, scene, split=parts, cache=to.cache)
+        return render_picture(form, result, scene, split=parts)
     if isinstance(result, SamplesReport):
-        if to.form == "json":
+        if form == "json":
             return json_document(result.to_dict(to.timings))
         from satcheck.cli.formats.samples import render as render_samples
 
         return render_samples(result, page, top=to.top)
-    if to.form == "json":
+    if form == "json":
         return render_json(result, timings=to.timings)
     if kind == "reports":
-        return pieces({"satcheck": result}, to.form)
+        return pieces({"satcheck": result}, form)
     from satcheck.cli.formats.table import render as render_table
 
     shown = in_one_line_each(with_titles(result))
     return render_table(shown, page, explain=to.explain, timings=to.timings, top=to.top)
+
+
+def deliver(document: Document, result: Report | SamplesReport, scene: Scene, to: Delivery) -> None:
+    """Write the documents, and say on stderr what none of them shows."""
+    shown = [target for target in to.targets if target.output is not None or not to.quiet]
+    for form, output in ((target.form, target.output) for target in shown):
+        document.deliver(partial(rendered, result, scene, form, to), output, utf8=form != "table")
+    files = "" if to.quiet else files_line(result, scene, shown)
+    is_told = bool(shown) and all(target.output is not None for target in shown)
+    tell(result, scene, files, written=is_told and not to.quiet)
 
 
 def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: bool) -> None:
@@ -119,44 +127,25 @@ def _shown(value: Any) -> Any:
     return [_shown(member) for member in value] if isinstance(value, list | tuple) else value
 
 
-def taken_pictures(options: dict[str, Any]) -> Pictures:
-    """Removes their options from `options`."""
-    return {form: path for form in _OPTIONS if (path := options.pop(form)) is not None}
+def refuse_outputs(outputs: Sequence[Path], inputs: Inputs, baseline: Path | None = None) -> None:
+    """Refuse what can be seen to fail before any work is done: no file may overwrite an input or
+    another document."""
+    refuse_early(inputs, None, baseline)
+    files: list[Path] = []
+    for output in (path for path in outputs if path != STANDARD_OUTPUT):
+        refuse_early(inputs, output, baseline)
+        if any(is_same_file(output, other) for other in files):
+            raise click.UsageError(f"-o {output} is given twice")
+        files.append(output)
 
 
-def refuse_pictures(
-    pictures: Pictures, inputs: Inputs, output: Path | None, baseline: Path | None = None
-) -> None:
-    """output: the file of the report. No file may overwrite an input or another output."""
-    written = {} if output is None else {"-o": output}
-    for form, path in pictures.items():
-        option = f"--{form}"
-        refuse_early(inputs, path, baseline, option=option)
-        for other, file in written.items():
-            if is_same_file(path, file):
-                raise click.UsageError(f"{option} {path} would overwrite the file of {other}")
-        written[option] = path
-
-
-def write_pictures(
-    pictures: Pictures, report: Report | SamplesReport, scene: Scene, pose: int | None = None
-) -> None:
-    """Raises SatcheckError where there is no picture, or it cannot be written. pose: see
-    `picture.render`."""
-    from satcheck.cli.formats.picture import render
-
-    for form, path in pictures.items():
-        write_file(path, render(form, report, scene, pose=pose))
-
-
-def files_line(
-    report: Report | SamplesReport, scene: Scene, form: str, output: Path | None, pictures: Pictures
-) -> str:
+def files_line(report: Report | SamplesReport, scene: Scene, targets: Iterable[Target]) -> str:
     """`Report: a.json. Image of box and lid: a.png. Model: a.glb`; empty without a file."""
-    named = [] if output is None or form in _OPTIONS else [f"Report: {output}"]
-    files = pictures if output is None or form not in _OPTIONS else {form: output, **pictures}
-    named += [f"{_what(kind, report, scene)}: {path}" for kind, path in files.items()]
-    return ". ".join(named)
+    return ". ".join(
+        f"{_what(target.form, report, scene)}: {target.output}"
+        for target in targets
+        if target.output is not None
+    )
 
 
 def _what(form: str, report: Report | SamplesReport, scene: Scene) -> str:
@@ -164,6 +153,8 @@ def _what(form: str, report: Report | SamplesReport, scene: Scene) -> str:
 
     if form == "glb":
         return "Model"
+    if form != "png":
+        return "Report"
     if isinstance(report, SamplesReport):
         from satcheck.cli.formats.picture.poses import worst_pose
 
@@ -173,16 +164,16 @@ def _what(form: str, report: Report | SamplesReport, scene: Scene) -> str:
     return f"Image of {f'{finding.a} and {finding.b}' if finding else 'all bodies'}"
 
 
-def refuse_certificate(form: str, *, wanted: bool) -> None:
-    if wanted and form != "json":
+def refuse_certificate(forms: Collection[str], *, wanted: bool) -> None:
+    if wanted and "json" not in forms:
         raise click.UsageError(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
 
 
-def refuse_of_poses(form: str, **options: Any) -> None:
+def refuse_of_poses(forms: Iterable[str], **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
-    if kind_of(form) == "reports":
+    for form in (form for form in forms if kind_of(form) == "reports"):
         raise click.UsageError(f"--format {form} takes one pose, and several are given")
     for name in ("baseline", "certificate", "explain", "cross_check"):
         if options.get(name):
@@ -190,11 +181,11 @@ def refuse_of_poses(form: str, **options: Any) -> None:
             raise click.UsageError(f"--{option} takes one pose, and several are given")
 
 
-def refuse_of_worlds(form: str, inputs: Inputs, **options: Any) -> None:
+def refuse_of_worlds(forms: Iterable[str], inputs: Inputs, **options: Any) -> None:
     """What is about one world."""
-    refused = {f"--format {form}": kind_of(form) == "picture", "poses": inputs.has_poses}
+    refused = {f"--format {form}": kind_of(form) == "picture" for form in forms if form != "html"}
+    refused |= {"poses": inputs.has_poses}
     refused |= {f"--{name}": bool(options[name]) for name in ("certificate", "explain")}
-    refused |= {f"--{name}": name in options for name in ("png", "glb")}
     for what in (what for what, given in refused.items() if given):
         raise click.UsageError(
             f"each scene is a world of its own, and {what} is about one: give one scene, or --merge"

@@ -10,7 +10,7 @@ from typing import get_args
 
 import click
 
-from satcheck.cli.option import DEFAULTS, seconds, together
+from satcheck.cli.option import limits, together
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.files.readers import GEOMETRY, GeometryKind, OptionValue, option_named, options
 from satcheck.scene.opening import is_folder
@@ -50,30 +50,15 @@ outside = click.option(
     is_flag=True,
     help="Read what a file names outside of its folder.",
 )
-# About what reading a file may do.
-reading = together(
-    outside,
-    seconds(
-        "--seconds-per-file",
-        DEFAULTS.seconds_per_file,
-        "The most time for reading a mesh file.",
-    ),
-    click.option(
-        "--megabytes-per-file",
-        type=click.IntRange(1),
-        metavar="MIB",
-        default=DEFAULTS.megabytes_per_file,
-        show_default=True,
-        help="The most memory for reading a mesh file; the file may be a quarter as large.",
-    ),
-    click.option(
-        "--read",
-        multiple=True,
-        metavar="NAME=VALUE",
-        callback=_read,
-        help=f"An option of the readers of some formats{_spelled_options()}. Repeatable.",
-    ),
+read = click.option(
+    "--read",
+    multiple=True,
+    metavar="NAME=VALUE",
+    callback=_read,
+    help=f"An option of the readers of some formats{_spelled_options()}. Repeatable.",
 )
+# About what reading a file may do.
+reading = together(outside, limits(), read)
 split = click.option(
     "--split",
     type=click.Choice(SPLITS),

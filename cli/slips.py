@@ -39,8 +39,20 @@ MOST_PATHS = 3
 _PATTERN = frozenset("*?[")
 # Options about the document, not about the answer, and about many assets.
 _DELIVERY = (
-    *("form", "output", "quiet", "top", "changed_since", "exclude", "color", "exit_zero"),
-    *("scene_seconds", "scene_megabytes"),
+    *(
+        "form",
+        "outputs",
+        "resume",
+        "shard",
+        "manifest",
+        "quiet",
+        "top",
+        "since",
+        "exclude",
+        "color",
+        "exit_zero",
+    ),
+    "limit",
 )
 # What other programs call our options: a name without dashes, and what it is here.
 _ALIASES: Mapping[str, tuple[str, ...]] = {
@@ -52,6 +64,10 @@ _ALIASES: Mapping[str, tuple[str, ...]] = {
     "out": ("-o",),
     "output-format": ("--format",),
 }
+
+
+# Words of other programs, and of earlier versions, for a command.
+_GONE = {"each": "batch", "report": "view"}
 
 
 class Advice(NamedTuple):
@@ -76,6 +92,8 @@ def about_first_word(word: str) -> Advice | None:
     rest = [each for each in words if each != word]
     if word == "check":
         return Advice("a check has no name: leave out the word check", _line(rest))
+    if word in _GONE:
+        return Advice("did you mean", _line([_GONE[word], *rest]))
     if word == "help":
         named = [each for each in rest if each in COMMANDS][:1]
         return Advice("this shows the help", _line([*named, "--help"]))
@@ -159,7 +177,7 @@ def _holds_origin(body: Body) -> bool:
 
 def about_one_body(path: str, components: int) -> list[Advice]:
     """Of a mesh file that is alone. components: connected, of its mesh."""
-    advice = [Advice(f"to check the mesh of {path} alone", _line(["each", path]))]
+    advice = [Advice(f"to check the mesh of {path} alone", _line(["batch", path]))]
     if other := _sibling(path):
         advice.append(Advice("to check it against another mesh", _line([*sys.argv[1:], other])))
     if components > 1:
@@ -172,8 +190,10 @@ def _about_command(word: str) -> Advice | None:
     """Of the first word, which is a path unless it names a command."""
     if not _is_check() or "." in word or exists(word) or _nearest(word) is not None:
         return None
-    near = get_close_matches(word, COMMANDS, n=1)
+    near = get_close_matches(word, [*COMMANDS, "check"], n=1)
     rest = [each for each in sys.argv[1:] if each != word]
+    if near == ["check"]:
+        return Advice("a check has no name: leave out the word", _line(rest))
     return Advice(f"did you mean the command {near[0]}", _line([*near, *rest])) if near else None
 
 
@@ -218,7 +238,7 @@ def _about_path(path: str) -> Iterator[Advice]:
 def _about_folder(path: str) -> Iterator[Advice]:
     if _is_check():
         purpose = f"to check each file in {path} by itself"
-        yield Advice(purpose, _line(["each", *sys.argv[1:]]))
+        yield Advice(purpose, _line(["batch", *sys.argv[1:]]))
     endings = Counter(file.suffix for file in _meshes(Path(path)))
     for ending, count in endings.most_common(1):
         purpose = f"to check its {count} {ending} files against each other"
@@ -229,7 +249,7 @@ def _about_folder(path: str) -> Iterator[Advice]:
 def _about_folders(paths: Sequence[str]) -> Iterator[Advice]:
     """Of several: a line for all of them, as a line for one of them would fail at the next."""
     if _is_check():
-        yield Advice("to check each file in the folders by itself", _line(["each", *sys.argv[1:]]))
+        yield Advice("to check each file in the folders by itself", _line(["batch", *sys.argv[1:]]))
         return
     endings = {path: Counter(file.suffix for file in _meshes(Path(path))) for path in paths}
     if all(endings.values()):
@@ -244,7 +264,7 @@ def _about_pattern(path: str) -> Iterator[Advice]:
         purpose = f"to check the files of {path} against each other"
         yield Advice(purpose, _replacing({path: matches}))
     if matches and _is_check():
-        yield Advice("to check each of them by itself", _line(["each", *sys.argv[1:]]))
+        yield Advice("to check each of them by itself", _line(["batch", *sys.argv[1:]]))
     if not matches:
         folder = Path(path).parent
         endings = Counter(file.suffix for file in _meshes(folder))

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections import deque
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
+from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 from msgspec.structs import asdict
@@ -17,9 +19,12 @@ from satcheck.audit.baseline import read_baseline
 from satcheck.audit.batch.check_world import unused_rules, without_unused_rules
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import CheckOptions, Limits, World
-from satcheck.audit.batch.slot_server import Answer, Wanted
+from satcheck.audit.batch.slot_server import Wanted
+from satcheck.audit.batch.stored import Stored, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli import exit_codes
+from satcheck.cli.format_option import Target
+from satcheck.cli.formats import worst_page
 from satcheck.cli.formats.assets import (
     AssetReports,
     Overview,
@@ -34,6 +39,7 @@ from satcheck.cli.option import names_of_lengths
 from satcheck.cli.output import Document, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
+from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, AssetVerdict, Result
 from satcheck.report.json import read_line
@@ -50,6 +56,16 @@ _MOST_THREADS = 8
 
 STANDARD_INPUT = "-"
 _NAMED = 6
+
+
+class Drawing(NamedTuple):
+    """How a gallery shows its worst findings. root: where the paths in the reports start. folder:
+    of a PNG of each. top: how many."""
+
+    root: Path = Path()
+    folder: Path | None = None
+    allow_outside: bool = False
+    top: int = 100
 
 
 def check_worlds(
@@ -71,24 +87,34 @@ def check_worlds(
     report has the worlds that are done, and says how many are not. Raises KeyboardInterrupt if none
     is.
     """
-    terms = check_options(inputs, options, baseline, config, places=delivery.form != "table")
+    forms = delivery.forms
+    terms = check_options(inputs, options, baseline, config, places=forms != {"table"})
     document = Document()
     jobs = options["jobs"] or os.cpu_count() or 1
-    assets = _check(worlds, terms, limits, jobs, hashed=delivery.form == "json")
+    hashed = not forms.isdisjoint(("json", "html"))
+    assets = _check(worlds, terms, limits, jobs, hashed=hashed)
     interrupted = _interrupted(len(worlds) - len(assets), len(worlds))
     shared = frozenset(map(str, inputs.rules))
-    unused = unused_rules(assets, shared) if complete and not interrupted else ()
-    assets = [without_unused_rules(each, shared) for each in assets]
-    empty = _nothing_compared(assets) if compares else ()
+    found = list(assets.values())
+    unused = unused_rules(found, shared) if complete and not interrupted else ()
+    stored = [
+        Stored(world, (), without_unused_rules(each, shared)) for world, each in assets.items()
+    ]
+    empty = _nothing_compared(found) if compares else ()
     least: AssetVerdict = "incomplete" if interrupted or empty else "pass"
-    seen = overview(assets, interrupted or (*empty, *unused), least=least, top=delivery.top)
-    _deliver(document, seen, assets, delivery)
-    if delivery.form != "table" or delivery.output is not None or delivery.quiet:
-        _tell(seen, assets, None if delivery.quiet else delivery.output)
+    issues = interrupted or (*empty, *unused)
+    seen = overview((each.asset for each in stored), issues, least=least, top=delivery.top)
+    top = Drawing().top if delivery.top is None else delivery.top
+    drawing = Drawing(allow_outside=inputs.allow_outside, top=top)
+    deliver_assets(document, seen, stored, delivery, drawing)
+    if delivery.quiet or all(target != Target("table", None) for target in delivery.targets):
+        _tell_errors(stored)
+    if not delivery.quiet:
+        tell_assets(seen, delivery)
     if interrupted:
         talk(f"satcheck: {interrupted[0].message}")
         return exit_codes.INTERRUPTED
-    return exit_codes.for_assets(seen.verdict, exit_zero=delivery.exit_zero)
+    return exit_codes.for_counts(seen.verdicts, exit_zero=delivery.exit_zero)
 
 
 def check_options(
@@ -117,7 +143,7 @@ def check_options(
 
 def _check(
     worlds: Sequence[World], options: CheckOptions, limits: Limits, jobs: int, *, hashed: bool
-) -> list[Asset]:
+) -> dict[World, Asset]:
     """Return the assets in the order of the worlds; after Ctrl-C only those that are done. Raises
     KeyboardInterrupt if none is."""
     threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
@@ -127,19 +153,15 @@ def _check(
         try:
             with closing(check_locally(worlds, options, limits, jobs, wanted)) as answers:
                 for each in chain.from_iterable(answers):
-                    assets[each.world] = _asset(each)
+                    report = read_line(each.line, Result).report
+                    assets[each.world] = Asset(each.world[0], each.verdict, report)
                     if bar is not None:
                         bar(len(assets), len(worlds))
         except KeyboardInterrupt:
             if not assets:
                 raise
             write_before_the_end()
-    return [assets[world] for world in worlds if world in assets]
-
-
-def _asset(answer: Answer) -> Asset:
-    report = read_line(answer.line, Result).report
-    return Asset(answer.world[0], answer.verdict, report)
+    return {world: assets[world] for world in worlds if world in assets}
 
 
 def _nothing_compared(assets: Sequence[Asset]) -> tuple[Issue, ...]:
@@ -158,32 +180,53 @@ def _interrupted(not_checked: int, total: int) -> tuple[Issue, ...]:
     return (Issue(INTERRUPTED, "warning", None, None, message),)
 
 
-def _deliver(document: Document, seen: Overview, assets: Sequence[Asset], to: Delivery) -> None:
-    if to.output is None and to.quiet:
-        return
-    if to.output is None and to.form == "table" and not assets:
-        return  # no asset changed, and stderr says so
-    made = AssetReports(lambda: assets, len(assets))
-    document.deliver(
-        lambda page: written(seen, made, to.form, page, timings=to.timings),
-        to.output,
-        utf8=to.form != "table",
-    )
+def deliver_assets(
+    document: Document,
+    seen: Overview,
+    stored: Collection[Stored] | StoredResults,
+    to: Delivery,
+    drawing: Drawing,
+    *,
+    only_shown: bool = False,
+) -> None:
+    """Deliver documents about assets. only_shown: those that a table shows."""
+    assets = AssetReports(lambda: (each.asset for each in stored), len(stored))
+    if only_shown:
+        assets = AssetReports(lambda: seen.shown, len(seen.shown))
+    illustrated: Iterator[Illustrated] = iter(())
+    if drawing.folder is not None or "html" in to.forms:
+        worst = worst_findings(stored, drawing.top)
+        illustrated = with_pictures(
+            worst, drawing.folder, drawing.root, allow_outside=drawing.allow_outside
+        )
+    for form, output in ((target.form, target.output) for target in to.targets):
+        # Where no asset changed, stderr says so.
+        if output is None and (to.quiet or (form == "table" and not (len(stored) or seen.issues))):
+            continue
+        if form == "html":
+            document.deliver(lambda _: worst_page.render(seen, illustrated), output, utf8=True)
+        else:
+            text = partial(written, seen, assets, form, timings=to.timings)
+            document.deliver(text, output, utf8=form != "table")
+    deque(illustrated, maxlen=0)  # what no page has taken
 
 
-def _tell(seen: Overview, assets: Sequence[Asset], output: Path | None) -> None:
-    """Say errors on stderr, which a table has in its rows; with -o also the warnings about all
-    assets, the summary, and where the report is."""
-    for each in assets:
-        for issue in each.report.issues:
+def _tell_errors(stored: Iterable[Stored]) -> None:
+    """Say errors on stderr, which a table has in its rows."""
+    for asset in (each.asset for each in stored):
+        for issue in asset.report.issues:
             if issue.severity == "error":
                 line = issue_line(issue)
-                talk(f"satcheck: {line}" if each.file in line else f"satcheck: {each.file}: {line}")
-    if output is None:
-        return
-    tell_issues(seen)
-    if assets:
-        talk(f"{summary_line(seen)} Report: {output}")
+                talk(f"satcheck: {line if asset.file in line else f'{asset.file}: {line}'}")
+
+
+def tell_assets(seen: Overview, to: Delivery) -> None:
+    """Tell on stderr what no table on standard output says, and where the reports are."""
+    files = [str(target.output) for target in to.targets if target.output is not None]
+    if files or to.forms != {"table"}:
+        tell_issues(seen)
+    if files and seen.total:
+        talk(f"{summary_line(seen)} Report: {', '.join(files)}")
 
 
 def asset_names(inputs: Inputs) -> Assets:

@@ -44,12 +44,12 @@ class Illustrated(NamedTuple):
 
 
 def worst_findings(results: Iterable[Stored], top: int) -> list[Worst]:
-    """At most `top`, the worst first. Holds the reports of as many."""
+    """Return the worst finding of each asset, the worst first, at most `top`. Holds the reports of
+    as many."""
     findings = (
-        Worst(finding, stored)
+        Worst(min(listed, key=rank), stored)
         for stored in results
-        for finding in stored.asset.report.findings
-        if is_listed(finding)
+        if (listed := [each for each in stored.asset.report.findings if is_listed(each)])
     )
     return worst_of(findings, top, lambda each: rank(each.finding))
 

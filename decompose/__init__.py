@@ -1,6 +1,6 @@
 """Splits concave meshes into convex parts with a measured error, and caches them on disk."""
 
-from satcheck.decompose.cache import Cache
+from satcheck.decompose.cache import Cache, user_cache
 from satcheck.decompose.decomposition import decompose
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.result import Decomposition, Note
@@ -13,4 +13,5 @@ __all__ = [
     "DecompositionSettings",
     "Note",
     "decompose",
+    "user_cache",
 ]

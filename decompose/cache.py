@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Final
 
 DIRECTORY_VARIABLE: Final = "SATCHECK_CACHE_DIR"
+SWITCH_VARIABLE: Final = "SATCHECK_CACHE"
 _SUBDIRECTORY: Final = "decompositions"  # other files in the user's directory are never touched
 _ENTRY_SUFFIX: Final = ".parts"
 _LOCK_SUFFIX: Final = ".lock"
@@ -92,6 +93,11 @@ class Cache:
 
     def _entry(self, key: bytes) -> Path:
         return self.path / (key.hex() + _ENTRY_SUFFIX)
+
+
+def user_cache() -> Cache | None:
+    """The cache of the user; None: SATCHECK_CACHE is `off`."""
+    return None if os.environ.get(SWITCH_VARIABLE, "").lower() == "off" else Cache()
 
 
 def default_directory() -> Path:

@@ -46,7 +46,7 @@ class Deadline:
         return DecompositionError(
             TIMEOUT,
             f"no convex parts after {self.seconds:g} s; raise the limit (`satcheck decompose "
-            "--seconds`) or the threshold (`--threshold`)",
+            "--limit body-seconds=N`) or the threshold (`--threshold`)",
         )
 
 

@@ -23,7 +23,7 @@ Figure = Literal["depth", "thickness", "volume", "distance", "motion_depth", "mo
 
 
 class KnownFinding(Value, frozen=True, kw_only=True):
-    """asset: for `satcheck each`, the asset relative to the folder of the baseline; "" for other
+    """asset: for `satcheck batch`, the asset relative to the folder of the baseline; "" for other
     checks. a, b: ids of bodies. severity, relation and figures: as accepted. units: of the figures;
     None: unknown. depth, thickness, volume: upper ends. distance: the lower end. motion_depth,
     motion_distance: of the worst pose of a motion. unmeasured: an overlap that is accepted without

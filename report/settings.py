@@ -50,17 +50,16 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     allow_open: Open meshes are meant to be open: sheets without an inside, not solids with holes.
     cross_check: Compare with python-fcl and manifold3d. A contradiction makes the check incomplete.
     planar: Check outlines in this plane (xy, yz or xz): flat layouts.
-    depth_width: Narrow the depth of concave pairs to an interval this wide, as a share of it.
-    depth_budget: Stop narrowing after this much work on a pair. Steps are counted, not time: every
+    width: Narrow depth and thickness of concave pairs to an interval this wide, as a share.
+    budget: Stop narrowing after this much work on a pair. Steps are counted, not time: every
     machine gives the same answer.
-    thickness_width: The same for the thickness.
 
     depth, thickness: a report says whether they are computed for every overlap; None: the thickness
     whenever the depth is. volume_*, part_*, *_per_file: limits. contact_points: the most points
     listed for a pair. list_pruned: findings for pairs that the broad phase settled; None: if there
     are few pairs. max_thickness, max_depth: both count, for pairs to which rules give neither a
     limit nor a clearance. method: changes no relation, and of a depth only the last digits.
-    depth_budget: of the thickness half of it.
+    budget: of the thickness half of it.
     """
 
     depth: bool | None = None
@@ -84,9 +83,8 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     cross_check: bool = False
     planar: Plane | None = None
     list_pruned: bool | None = None
-    depth_width: Width = 0.01
-    depth_budget: Budget = 2.0
-    thickness_width: Width = 0.01
+    width: Width = 0.01
+    budget: Budget = 2.0
     part_threshold: Length = 0.05
     part_seed: int = 0
     part_seconds: Size = 120.0

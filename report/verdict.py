@@ -83,7 +83,7 @@ def summarise(
         verdict = "fail"  # even if other pairs are undecided
     elif (
         unlisted_open
-        or any(f.undecided is not None and f.baseline_state not in HELD for f in findings)
+        or any(f.undecided is not None and f.baseline_state != "accepted" for f in findings)
         or not (counts.asked or alone)  # a check without pairs never passes
         or any(answer.answer == "open" for answer in answers)
         or any(issue.state == "blocking" for issue in issues)

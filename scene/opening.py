@@ -492,7 +492,7 @@ def _refuse_large(size: int, most: int) -> None:
     if size > most:
         message = (
             f"{size} bytes exceed the limit of {most} bytes, a quarter of the memory for one file "
-            "(raise it with --megabytes-per-file)"
+            "(raise it with --limit megabytes=N)"
         )
         raise Refused("too-large", message)
 

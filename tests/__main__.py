@@ -54,7 +54,7 @@ def types() -> Outcome:
 
 
 def arrows() -> Outcome:
-    return run("lint-imports", "--no-logo", "--no-cache", PYTHONPATH=str(LINKS))
+    return run("lint-imports", "--no-logo", PYTHONPATH=str(LINKS))
 
 
 def native() -> Outcome:

@@ -16,7 +16,7 @@ import numpy as np
 import trimesh
 
 SUNK, ON_TOP = 0.9, 1.1
-CONFIG = "depth = true\nno-cache = true\n"
+CONFIG = "depth = true\n"
 SHELF = """\
 schema = "satcheck.scene/1"
 units = "mm"

@@ -50,7 +50,7 @@ def test_the_core_needs_no_import_of_its_own() -> None:
         {"tolerance": True},
         {"volume": "x"},
         {"part_seconds": -1.0},
-        {"depth_budget": "a"},
+        {"budget": "a"},
         {"jobs": 1.5},
     ],
 )

@@ -67,7 +67,7 @@ def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     narrowly at the pose with the longest way out. The lower bound is that of the hulls over the
     motion.
     """
-    budget = pair.pair.settings.depth_budget
+    budget = pair.pair.settings.budget
     step = (1.0 - impact) / (DEPTHS - 1)
     times = [min(impact + step * k, 1.0) for k in range(DEPTHS)]
     try:
@@ -136,7 +136,7 @@ def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     """Proven bounds of the depth; 0.0 if the bodies do not overlap."""
     placed = pair.placed(t)
     request = replace(placed.request, by={"overlap": ALWAYS, "depth": ALWAYS})
-    settings = replace(placed.settings, depth_budget=budget)
+    settings = replace(placed.settings, budget=budget)
     finding = found(replace(placed, settings=settings, request=request))
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
         return 0.0, 0.0

@@ -63,7 +63,7 @@ class Layout:
         self.offsets = [ORIGIN] * len(self.home)
         self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, PairState]] = {}
         share = max(LEAST_BUDGET, ROUND_BUDGET / max(len(self.close_pairs()), 1))
-        self.settings = replace(settings, depth_budget=min(settings.depth_budget, share))
+        self.settings = replace(settings, budget=min(settings.budget, share))
 
     def move(self, offsets: dict[int, Vector]) -> None:
         """Put these bodies at these translations from home."""

@@ -73,7 +73,7 @@ def _may_overlap(pair: Pair) -> float:
     most = min((limit for limit in limits if limit is not None), default=0.0)
     if pair.request.max_volume is not None:
         return 0.0
-    return most if pair.both_convex else most * (1 - pair.settings.depth_width)
+    return most if pair.both_convex else most * (1 - pair.settings.width)
 
 
 def _parting_step(pair: Pair, length: float) -> Vector | None:

@@ -51,7 +51,7 @@ def find_components(draft: Draft) -> None:
 def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
     """The thickness of each component; what is not convex is searched, within the budget of the
     pair."""
-    a, b, width = pair.a.surface(), pair.b.surface(), pair.settings.thickness_width
+    a, b, width = pair.a.surface(), pair.b.surface(), pair.settings.width
     components = overlap.components
     work = pair.settings.thickness_work
     for place, hull in enumerate(core.component_balls(a, b, overlap)):

@@ -75,7 +75,7 @@ def measure_thickness(draft: Draft) -> None:
 
 def first_search(pair: Pair, go_on: Callable[[], None] | None = None) -> core.ThicknessInterval:
     """To the width of the settings. go_on: called now and then; what it raises ends the search."""
-    return _search(pair, pair.settings.thickness_width, pair.settings.thickness_work, None, go_on)
+    return _search(pair, pair.settings.width, pair.settings.thickness_work, None, go_on)
 
 
 def _search(

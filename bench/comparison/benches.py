@@ -106,7 +106,7 @@ def readers(folder: Path) -> Rows:
         for path, mesh in zip(paths, (first, other), strict=True):
             path.write_bytes(write(mesh))
         # A busy machine should not end the reading of a file.
-        words = [*map(str, paths), "--no-depth", "--seconds-per-file", "600", *ONE_THREAD]
+        words = [*map(str, paths), "--no-depth", "--seconds-per-file=600", *ONE_THREAD]
         runs = 1 if ending in SLOW_READERS else 3
         rows[ending] = check(words, answers.of_report, folder / "reading.json", runs)
     return rows

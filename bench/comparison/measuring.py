@@ -17,7 +17,10 @@ ASK = Path(__file__).with_name("ask.py")
 FINE = (0, 1, 3)
 # Commands and options that were renamed, oldest first: (before, after). A side that does not know
 # one spelling is asked with the next one.
-RENAMED: tuple[tuple[str, str], ...] = (("--depth-budget", "--budget"),)
+RENAMED: tuple[tuple[str, str], ...] = (
+    ("--depth-budget", "--budget"),
+    ("--seconds-per-file=600", "--limit=seconds=600"),
+)
 UNKNOWN = ("No such option", "No such command")
 
 Measure = Callable[[Side], Sample]

@@ -15,7 +15,7 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
 from satcheck.cli.formats.axes import render
 from satcheck.cli.inputs import load
-from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
+from satcheck.cli.plotting import plot_option, refuse_plot, write_plot
 from satcheck.cli.posing import posed_once
 
 if TYPE_CHECKING:
@@ -36,7 +36,6 @@ TABLE_ROWS = 20
     f"[default: {TABLE_ROWS} in a table, all in JSON]",
 )
 @plot_option("Draw the shadows on each axis")
-@dark_option
 @option.planar
 @form_option
 @option.output
@@ -48,20 +47,18 @@ TABLE_ROWS = 20
 @scene_option.package
 @scene_option.geometry
 @scene_option.one_pose
-@option.color
-@option.debug
+@option.common
 def command(
     form: str | None,
     output: Path | None,
     bodies: tuple[str, str] | None,
     top: int | None,
     plot: Path | None,
-    dark: bool,
     planar: Plane | None,
     allow_open: bool,
     **options: Any,
 ) -> int:
-    """Show why two convex bodies are apart: the separating axis theorem, axis by axis.
+    """Show why two convex bodies are apart, axis by axis.
 
     Two convex bodies are apart exactly if their shadows on some axis are. Only the face normals of
     both and the cross products of their edges can be needed: 15 axes for two boxes. For each of
@@ -84,7 +81,7 @@ def command(
     if plot:
         from satcheck.cli.formats.axes_plot import draw
 
-        write_plot(draw(result, dark=dark), plot)
+        write_plot(draw(result), plot)
     shown = replace(
         result, axes=result.axes[:rows], left_out=len(result.axes) - len(result.axes[:rows])
     )

@@ -54,7 +54,7 @@ undecided_option = click.option(
 def command() -> None:
     """Known findings that do not fail a check.
 
-    REPORT is a JSON report of a check or of `satcheck each`, with the options that the check in CI
+    REPORT is a JSON report of a check or of `satcheck batch`, with the options that the check in CI
     has. `satcheck --baseline BASELINE ...` then fails only on findings that are new or worse.
     """
 

@@ -1,10 +1,9 @@
-"""`satcheck batch SCENE ...`: thousands of scenes, whose results survive every crash."""
+"""`satcheck batch DIR|FILE ...`: many assets, each a scene of its own; results survive crashes."""
 
 from __future__ import annotations
 
 import os
 import signal
-from collections import Counter
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
@@ -17,75 +16,100 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.check_world import foreign_worlds
 from satcheck.audit.batch.manifest import Shard, parse_shard, read_manifest
-from satcheck.audit.batch.options import Limits, World
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import at, is_remote, is_url, local_results
 from satcheck.audit.batch.results import PART, ResultsFile
-from satcheck.audit.batch.run import ENGINES, Tally, run
+from satcheck.audit.batch.run import ENGINES, Engine, Tally, run
 from satcheck.audit.batch.slot_server import Answer
+from satcheck.audit.batch.stored import StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli import exit_codes, option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config import stated_config
-from satcheck.cli.inputs import Inputs, refuse_early
+from satcheck.cli.format_option import Target, format_option, targets_of
+from satcheck.cli.formats.assets import overview
+from satcheck.cli.formats.registry import REPORTS, Format
+from satcheck.cli.inputs import Inputs, refuse_early, typed
 from satcheck.cli.interrupts import write_before_the_end
-from satcheck.cli.output import talk
+from satcheck.cli.output import Document, talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.worlds import asset_names, check_options, tell_foreign
+from satcheck.cli.rendering import Delivery, refuse_certificate
+from satcheck.cli.worlds import (
+    Drawing,
+    asset_names,
+    check_options,
+    check_worlds,
+    deliver_assets,
+    tell_foreign,
+)
 from satcheck.core.errors import SatcheckError
 from satcheck.core.plugins import function_at
-from satcheck.report.assets import ASSET_VERDICTS, AssetVerdict, worst_verdict
+from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.scene.asset_files import NO_ASSETS
+from satcheck.scene.changed_assets import changed_since
+from satcheck.scene.files.readers import mesh_reader
+from satcheck.scene.opening import is_folder
 
 # What is about one world, or about one report.
 _NOT_HERE = (
-    "form",
-    "output",
-    "png",
-    "glb",
-    "top",
-    "pose",
-    "state",
-    "joint_path",
-    "sample",
-    "seed",
-    "explain",
-    "merge",
-    "timings",
-    "quiet",
-    "version",
+    *("form", "outputs", "limit", "pose", "state", "joint_path", "sample", "seed"),
+    *("explain", "merge", "version", "help_all"),
 )
 _PATTERN = frozenset("*?[")
+# What this command means by these names.
+_FORMATS = {
+    "results": Format(
+        "results", (".jsonl", ".ndjson"), about="a line for each asset, for --resume and view"
+    ),
+    "html": Format("html", (".html", ".htm"), about="a gallery of the worst finding of each asset"),
+}
 
 
-@click.command("batch", cls=Command, context_settings=HELP_NAMES)
-@option.paths("SCENE|DIR|- ...")
+@click.command(
+    "batch",
+    cls=Command,
+    context_settings=HELP_NAMES,
+    daily="outputs form resume since exclude clearance max_thickness max_depth tolerance "
+    "depth rules baseline accept allow_open units top jobs",
+)
+@option.paths("ASSET|DIR|- ...")
 @click.option(
     "--manifest",
     type=click.Path(dir_okay=False),
     metavar="FILE",
-    help="Also the scenes that FILE names, one in a line; a line may be a JSON list of files that "
+    help="Also the assets that FILE names, one in a line; a line may be a JSON list of files that "
     "are one scene together.",
 )
 @click.option(
+    "--changed-since",
+    "since",
+    metavar="REV",
+    help="Only assets that changed since this git revision, or that name a changed file.",
+)
+@option.exclude
+@format_option(REPORTS, also=_FORMATS)
+@click.option(
     "-o",
     "--output",
+    "outputs",
+    multiple=True,
     type=click.Path(dir_okay=False),
     metavar="FILE",
-    required=True,
-    help="Write the results to FILE, as JSON Lines: a line for each scene.",
+    help="Write the report to FILE, as its name ends: .jsonl gets each result at once, for "
+    "--resume and satcheck view; - is standard output. Repeatable.",
 )
 @click.option(
     "--resume",
     is_flag=True,
-    help="Keep the results in the file whose scenes, meshes and options are unchanged.",
+    help="Keep the results in the .jsonl file whose assets, meshes and options are unchanged.",
 )
 @click.option(
     "--shard",
     type=parse_shard,
     metavar="I/N",
     default="1/1",
-    help="Check only part I of N of the scenes. The names of its files decide the part of a scene.",
+    help="Check only part I of N of the assets. The names of its files place an asset.",
 )
 @click.option(
     "--engine",
@@ -99,47 +123,107 @@ _PATTERN = frozenset("*?[")
     metavar="ADDRESS",
     help="Of the Dask cluster: tcp://host:port, or the JSON file that the scheduler has written.",
 )
-@option.exclude
-@option.limits_of_worlds("a scene")
+@option.limits("scene-seconds", "scene-megabytes")
 @option.those_of(check_command, but=_NOT_HERE)
 def command(
     manifest: str | None,
-    output: str,
+    since: str | None,
+    form: str | None,
+    outputs: tuple[str, ...],
     resume: bool,
     shard: Shard,
     engine: str,
     scheduler: str | None,
-    scene_seconds: float,
-    scene_megabytes: int,
+    quiet: bool,
     exit_zero: bool,
+    top: int | None,
     baseline: Path | None,
     **options: Any,
 ) -> int:
-    """Check thousands of scenes: none stops the others.
+    """Check each asset of a folder, and thousands of them.
 
-    A scene is a scene file, a robot or a mesh file. A folder stands for all scenes in it, and -
-    reads their names from standard input. Any of the files may be a URL, as s3://bucket/a.toml. If
-    a process crashes, hangs or needs too much memory, satcheck replaces it, checks its scene again
-    without the file or pair at fault, and reports that file or pair. FILE.part receives each
-    result at once; FILE itself appears when all results are there.
+    An asset is a mesh file, a scene or a robot, and a scene of its own: bodies of different assets
+    are never compared. A folder stands for all assets below it, a pattern ("props/**/*.glb") for
+    files, and - for names on standard input, one in a line, or each ended by a NUL. An asset with
+    one body passes if that body can be read. A URDF is read without its SRDF. If a process
+    crashes, hangs or needs too much memory, the other assets still get their answers.
 
-    The exit code is that of the worst scene: 2 if one cannot be read, else 1 if one fails, else 3
+    With -o results.jsonl a run that was stopped goes on where it was: --resume. Files may be URLs,
+    such as s3://bucket/a.toml, and so may the results.
+
+    The exit code is that of the worst asset: 2 if one cannot be read, else 1 if one fails, else 3
     if one is not fully checked, else 0.
     """
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
+    targets, results = _targets(form, outputs)
+    if not (inputs.paths or manifest):
+        raise click.UsageError("give a folder or files: `satcheck batch .` checks this folder")
     local = tuple(name for name in inputs.paths if not is_url(name))
     assets = asset_names(replace(inputs, paths=local)) if local else NO_ASSETS
     foreign = foreign_worlds(assets.foreign)
     worlds = _worlds([*((name,) for name in assets.files), *foreign], inputs, manifest, shard)
-    tell_foreign(set(worlds).intersection(foreign))
     inputs = replace(inputs, folders=tuple(assets.folders))
-    _refuse(worlds, inputs, output, baseline)
+    files = [*filter(None, (target.output for target in targets))]
+    if results is not None and not is_url(results):
+        files.append(Path(results))
+    _refuse(worlds, inputs, files, baseline)
+    if results is None:
+        _refuse_without_results(worlds, resume=resume, engine=engine)
+        forms = {target.form for target in targets}
+        refuse_certificate(forms, wanted=options["certificate"])
     config = stated_config(click.get_current_context())
+    if since is not None:
+        if any(map(is_remote, worlds)):
+            raise click.UsageError("--changed-since is about files of this machine, not at URLs")
+        shared = [*inputs.rules, *filter(None, [baseline, Path(config.file) if config else None])]
+        worlds = _changed(since, worlds, shared)
+    if not quiet:
+        tell_foreign(set(worlds).intersection(foreign))
+    limits = Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"]))
+    delivery = Delivery(targets, quiet, exit_zero, options["timings"], top)
+    if results is None:
+        complete = since is None and shard.count == 1
+        return check_worlds(
+            worlds, inputs, options, baseline, delivery, config, limits, complete=complete
+        )
     terms = check_options(inputs, options, baseline, config)
-    limits = Limits(scene_seconds, scene_megabytes)
     check = _engine(engine, scheduler, options["jobs"])
-    with _local(output) as path, ResultsFile(path) as results, Bar("scenes") as bar:
+    tally = _run(
+        worlds, terms, limits, partial(check, options=terms, limits=limits), results, resume
+    )
+    if not quiet:
+        talk(_summary(tally, results))
+    if targets:
+        _deliver(Path(results), delivery, allow_outside=inputs.allow_outside)
+    return exit_codes.for_counts(tally.verdicts, exit_zero=exit_zero)
+
+
+def _targets(form: str | None, outputs: Sequence[str]) -> tuple[tuple[Target, ...], str | None]:
+    """Return the documents, and the file or URL of the results."""
+    urls = [name for name in outputs if is_url(name)]
+    if urls and (len(outputs) > 1 or form not in (None, "results")):
+        raise click.UsageError(f"-o {urls[0]}: a URL takes the results, and no other document")
+    if urls:
+        return (), urls[0]
+    targets = targets_of(form, [Path(name) for name in outputs], REPORTS, _FORMATS)
+    results = [target.output for target in targets if target.form == "results"]
+    if len(results) > 1 or None in results:
+        raise click.UsageError("results go to one file, for --resume: name it, -o results.jsonl")
+    others = tuple(target for target in targets if target.form != "results")
+    return others, str(results[0]) if results else None
+
+
+def _run(
+    worlds: Sequence[World],
+    terms: CheckOptions,
+    limits: Limits,
+    check: Engine,
+    output: str,
+    resume: bool,
+) -> Tally:
+    """Check the assets into the file of results."""
+    with _local(output) as path, ResultsFile(path) as results, Bar("assets") as bar:
         if not resume:
             _refuse_existing(results, output)
         tally = Tally(len(worlds))
@@ -150,9 +234,8 @@ def command(
             if bar is not None:
                 bar(tally.done, tally.total, _verdicts(tally, but="pass"))
 
-        made = partial(check, options=terms, limits=limits)
         try:
-            run(worlds, terms, limits, made, results, show)
+            run(worlds, terms, limits, check, results, show)
         except (KeyboardInterrupt, SatcheckError):
             if is_url(output):
                 write_before_the_end()
@@ -160,19 +243,67 @@ def command(
                 place = output if is_url(output) else str(results.part)
                 talk(f"satcheck: {_recorded(tally, place)}")
             raise
-    talk(_summary(tally, output))
-    return _exit_code(tally, exit_zero)
+    return tally
 
 
-def _refuse(worlds: Sequence[World], inputs: Inputs, output: str, baseline: Path | None) -> None:
+def _deliver(results: Path, delivery: Delivery, *, allow_outside: bool) -> None:
+    """Write the other documents from the results."""
+    with StoredResults([results]) as stored:
+        found = (each.asset for each in stored)
+        seen = overview(found, stored.issues, least=stored.least, top=delivery.top)
+        drawing = Drawing(allow_outside=allow_outside)
+        deliver_assets(Document(), seen, stored, delivery, drawing)
+
+
+def _changed(revision: str, worlds: Sequence[World], shared: Sequence[Path]) -> Sequence[World]:
+    """Return the assets that changed. shared: what these files say of every asset counts."""
+    if new := changed_since(revision, list(map(str, shared))):
+        talk(f"satcheck: {new[0]} changed since {revision}: every asset is checked")
+        return worlds
+    named = [name for world in worlds for name in world if not is_folder(name)]
+    changed = set(changed_since(revision, named))
+    if not changed:
+        talk(f"satcheck: no asset changed since {revision}")
+    return [kept for world in worlds if (kept := _kept(world, changed))]
+
+
+def _kept(world: World, changed: set[str]) -> World:
+    """Return the world with what has changed; (): nothing has. Of a folder that stands for files
+    which no reader knows these count one by one."""
+    first, *files = world
+    if is_folder(first):
+        files = [name for name in files if name in changed]
+        return (first, *files) if files else ()
+    return () if changed.isdisjoint(world) else world
+
+
+def _refuse(
+    worlds: Sequence[World], inputs: Inputs, outputs: Sequence[Path], baseline: Path | None
+) -> None:
     """Refuse what can be seen to fail before any work is done."""
-    if output == "-":
-        raise click.UsageError("-o - has no place for --resume: name a file")
     files = tuple(name for world in worlds for name in world if not is_url(name))
     if baseline is not None and any(map(is_remote, worlds)):
         raise click.UsageError("--baseline knows the assets of this machine, and none at a URL")
-    if files and not is_url(output):
-        refuse_early(Inputs(paths=files, rules=inputs.rules), Path(output), baseline)
+    read = Inputs(paths=files, rules=inputs.rules)
+    for output in outputs if files else ():
+        refuse_early(read, output, baseline)
+    readers = [mesh_reader(Path(name).suffix) for name in files]
+    for name in typed(inputs.read):
+        if None not in readers and not any(
+            name in {each.name for each in reader.options} for reader in readers if reader
+        ):
+            said = name.replace("_", "-")
+            raise click.UsageError(f"--read {said}: no reader of these files has this option")
+
+
+def _refuse_without_results(worlds: Sequence[World], *, resume: bool, engine: str) -> None:
+    wanted = {
+        "--resume": resume,
+        f"--engine {engine}": engine != "local",
+        "assets at URLs": any(map(is_remote, worlds)),
+    }
+    for what in (what for what, is_wanted in wanted.items() if is_wanted):
+        raise click.UsageError(f"{what}: name a file for the results, -o results.jsonl")
 
 
 def _refuse_existing(results: ResultsFile, output: str) -> None:
@@ -202,7 +333,7 @@ def _worlds(
     if first is None and manifest is not None:
         raise SatcheckError("no-assets", "it names no scene", file=manifest)
     if first is None:
-        raise click.UsageError("give scenes, a folder of them, or --manifest FILE")
+        raise click.UsageError("no file is named: give a folder or files")
     return tuple(dict.fromkeys(world for world in chain([first], named) if shard.has(world)))
 
 
@@ -229,7 +360,7 @@ def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Genera
 
 
 def _recorded(tally: Tally, place: str) -> str:
-    done = f"{tally.done:,} of {counted(tally.total, 'scene')} are recorded in {place}"
+    done = f"{tally.done:,} of {counted(tally.total, 'asset')} are recorded in {place}"
     return f"{done}: the same command with --resume checks the others"
 
 
@@ -246,10 +377,4 @@ def _verdicts(tally: Tally, but: str = "") -> str:
 def _summary(tally: Tally, output: str) -> str:
     kept = f" ({tally.kept:,} kept)" if tally.kept else ""
     verdicts = f": {_verdicts(tally)}{kept}" if tally.done else ""
-    return f"{counted(tally.total, 'scene')}{verdicts}. Results: {output}"
-
-
-def _exit_code(tally: Tally, exit_zero: bool) -> int:
-    """By the worst scene, or the worst that does not fail."""
-    forgiven: Counter[AssetVerdict] = Counter({"fail": tally.total} if exit_zero else {})
-    return exit_codes.for_assets(worst_verdict(tally.verdicts - forgiven), exit_zero=exit_zero)
+    return f"{counted(tally.total, 'asset')}{verdicts}. Results: {output}"

@@ -23,24 +23,19 @@ from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import all_commands
-from satcheck.cli.format_option import form_of, format_option
+from satcheck.cli.format_option import format_option, targets_of
 from satcheck.cli.formats.registry import ALL, function_of, kind_of
-from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
+from satcheck.cli.inputs import Inputs, load, worlds_of
 from satcheck.cli.option import length, settings_of
 from satcheck.cli.output import Document, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import (
     Delivery,
-    Pictures,
-    files_line,
+    deliver,
     refuse_certificate,
     refuse_of_poses,
     refuse_of_worlds,
-    refuse_pictures,
-    rendered,
-    taken_pictures,
-    tell,
-    write_pictures,
+    refuse_outputs,
 )
 from satcheck.report.baseline import Baseline
 from satcheck.report.samples import SamplesReport
@@ -84,27 +79,22 @@ class _DefaultCommand(Command):
     def collect_usage_pieces(self, _: click.Context) -> list[str]:
         return ["[OPTIONS] A B [C ...]"]
 
-    def format_epilog(self, _: click.Context, formatter: click.HelpFormatter) -> None:
-        with formatter.section("Exit codes"):
-            formatter.write_dl(
-                [
-                    ("0", "everything was checked, and no pair fails"),
-                    (
-                        "1",
-                        "bodies overlap more than rules allow, or are closer than their clearance",
-                    ),
-                    ("2", "wrong usage, an unreadable input, or an internal error"),
-                    ("3", "no pair is known to fail, but not everything could be checked"),
-                ]
-            )
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        del ctx
         with formatter.section("Other commands"):
             formatter.write_dl(
                 [(f"satcheck {name}", text) for name, text in all_commands().items()]
             )
-        with formatter.section("Shell completion"):
-            formatter.write_text('bash: eval "$(_SATCHECK_COMPLETE=bash_source satcheck)"')
-            formatter.write_text('zsh:  eval "$(_SATCHECK_COMPLETE=zsh_source satcheck)"')
-            formatter.write_text("fish: _SATCHECK_COMPLETE=fish_source satcheck | source")
+        with formatter.section("Exit codes"):
+            formatter.write_dl(
+                [
+                    ("0", "everything was checked, and no pair fails"),
+                    ("1", "a pair overlaps more than rules allow, or is closer than its clearance"),
+                    ("2", "wrong usage, an unreadable input, or an internal error"),
+                    ("3", "no pair is known to fail, but not everything could be checked"),
+                    ("130", "interrupted"),
+                ]
+            )
 
 
 def _help() -> str:
@@ -118,14 +108,13 @@ def _help() -> str:
 
     A, B ... are meshes ({meshes}), scenes ({documents}) or robots ({known}, SRDF). A body is a
     file; of one file alone that has nodes, a node. Every pair of bodies is checked, in the
-    coordinates of the files. A body inside another collides with it. A LENGTH is in units of the
-    files, or has its own where these are known: 2mm.
+    coordinates of the files. A LENGTH is in units of the files, or has its own: 2mm.
 
     \b
       satcheck a.stl b.stl                   do they collide?
       satcheck a.stl b.stl -o report.html    look at the overlap
       satcheck assembly.glb                  the parts of one file
-      satcheck each models                   every file of a folder, by itself
+      satcheck batch models                  every file of a folder, by itself
     """
 
 
@@ -135,11 +124,25 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
         ctx.exit()
 
 
-@click.command("check", cls=_DefaultCommand, context_settings=HELP_NAMES, hidden=True, help=_help())
+# The options of daily use. Those of a robot or a format are in messages that ask for them.
+DAILY = """outputs form clearance max_thickness max_depth tolerance depth rules baseline allow_open
+units split sample explain version"""
+
+
+@click.command(
+    "check",
+    cls=_DefaultCommand,
+    context_settings=HELP_NAMES,
+    hidden=True,
+    help=_help(),
+    daily=DAILY,
+)
 @option.paths("A B [C ...]")
 @format_option(ALL)
-@option.output
-@option.pictures
+@option.outputs(
+    "Write the report to FILE, in the format that its name ends with; - is standard output. "
+    "Repeatable."
+)
 @click.option(
     "--explain",
     is_flag=True,
@@ -161,11 +164,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @option.setting("surface_tolerance", type=length, note="of the scene, else 0")
 @option.setting("accuracy", type=click.Choice(ACCURACIES), metavar="LEVEL")
 @option.method
-@option.setting("depth_width", type=WIDTH, metavar="RATIO")
-@option.setting(
-    "depth_budget", type=click.FloatRange(0, MOST_BUDGET, min_open=True), metavar="SECONDS"
-)
-@option.setting("thickness_width", type=WIDTH, metavar="RATIO")
+@option.setting("width", type=WIDTH, metavar="RATIO")
+@option.setting("budget", type=click.FloatRange(0, MOST_BUDGET, min_open=True), metavar="SECONDS")
 @option.planar
 @scene_option.split
 @option.setting("fail_on", type=click.Choice(FAIL_ON), metavar="SEVERITY")
@@ -183,7 +183,6 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @option.setting("cross_check")
 @option.setting("certificate")
 @option.jobs
-@option.cache
 @click.option(
     "--no-timings",
     "timings",
@@ -200,10 +199,10 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @scene_option.geometry
 @scene_option.poses
 @scene_option.joint_path
-@option.color
+@option.color()
 @option.no_config
 @option.config
-@option.debug
+@option.debug()
 @click.option(
     "--version",
     is_flag=True,
@@ -214,7 +213,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 )
 def command(
     form: str | None,
-    output: Path | None,
+    outputs: tuple[Path, ...],
     baseline: Path | None,
     explain: bool,
     top: int | None,
@@ -224,29 +223,28 @@ def command(
 ) -> int:
     """Check bodies, or robots in many poses. The exit code is returned."""
     inputs = Inputs.taken_from(options)
-    refuse_early(inputs, output, baseline)
-    form = form_of(form, output, ALL)
-    refuse_certificate(form, wanted=options["certificate"])
-    pictures = taken_pictures(options)
-    refuse_pictures(pictures, inputs, output, baseline)
-    if kind_of(form) == "picture":
-        function_of(form)  # a library that it lacks is told before the check
+    refuse_outputs(outputs, inputs, baseline)
+    to = Delivery(
+        targets_of(form, outputs, ALL), quiet, exit_zero, options["timings"], top, explain
+    )
+    refuse_certificate(to.forms, wanted=options["certificate"])
+    pictures = [form for form in to.forms if kind_of(form) == "picture"]
+    for picture in pictures:
+        function_of(picture)  # a library that it lacks is told before the check
     ctx, config = click.get_current_context(), None
     if ctx.default_map:  # of a config file
         from satcheck.cli.config import stated_config
 
         config = stated_config(ctx)
-    timings, cache = options["timings"], options["cache"]
-    delivery = Delivery(form, output, quiet, exit_zero, timings, top, explain, cache)
     worlds = worlds_of(inputs)
     if len(worlds) > 1:
         from satcheck.cli.worlds import check_worlds
 
-        refuse_of_worlds(form, inputs, explain=explain, **options, **pictures)
-        return check_worlds(worlds, inputs, options, baseline, delivery, config, compares=True)
+        refuse_of_worlds(to.forms, inputs, explain=explain, **options)
+        return check_worlds(worlds, inputs, options, baseline, to, config, compares=True)
     known = None if baseline is None else _Known(baseline, read_baseline(baseline))
     document = Document()
-    scene = load(inputs, hashed=form == "json")
+    scene = load(inputs, hashed="json" in to.forms)
     _collect_garbage(scene)
     if len(inputs.paths) > 2:
         from satcheck.cli.slips import about_assets
@@ -254,10 +252,10 @@ def command(
         for advice in about_assets(inputs.paths, scene):
             talk(str(advice))
     failed = any(issue.severity == "error" for issue in scene.issues)
-    if failed and len(scene.bodies) < 2 and form == "table":
+    if failed and len(scene.bodies) < 2 and to.forms == {"table"}:
         return exit_codes.ERROR  # every pair would be an empty row, and the error is told
     scene, poses = _placed(scene, inputs)
-    if poses is None and (pictures or kind_of(form) == "picture"):
+    if poses is None and pictures:
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     settings = {**options, **inputs.limits}
@@ -267,34 +265,15 @@ def command(
         result = _check(scene, asked if known is None else measuring(asked))
         if known is not None:
             result = known.beside(result, inputs.paths)
-        if form != "table":
+        if to.forms != {"table"}:
             result = with_stated_places(result, scene)
     else:
-        refuse_of_poses(form, explain=explain, baseline=baseline, **options)
+        refuse_of_poses(to.forms, explain=explain, baseline=baseline, **options)
         result = _check_poses(scene, poses, settings_of(settings, scene), inputs.random_seed)
     if config is not None:
         result = replace(result, config=config)
-    _deliver(document, result, scene, delivery, pictures)
+    deliver(document, result, scene, to)
     return exit_codes.for_verdict(result.summary.verdict, result.issues, exit_zero=exit_zero)
-
-
-def _deliver(
-    document: Document,
-    result: Report | SamplesReport,
-    scene: Scene,
-    to: Delivery,
-    pictures: Pictures,
-) -> None:
-    """The report, the pictures beside it, and what stderr says."""
-    if to.output is not None or not to.quiet:
-        document.deliver(
-            lambda page: rendered(result, scene, to, page),
-            to.output,
-            utf8=to.form != "table",
-        )
-    write_pictures(pictures, result, scene)
-    files = "" if to.quiet else files_line(result, scene, to.form, to.output, pictures)
-    tell(result, scene, files, written=to.output is not None and not to.quiet)
 
 
 def _collect_garbage(scene: Scene) -> None:

@@ -10,7 +10,7 @@ import click
 from click.core import ParameterSource
 
 from satcheck.cli.click_classes import HELP_NAMES, Command, Group
-from satcheck.cli.config import COMMANDS, config_of, configurable, is_from_config, is_inverted
+from satcheck.cli.config import COMMANDS, config_of, configurable, is_from_config
 from satcheck.cli.formats.summary import toml
 from satcheck.cli.output import Document
 
@@ -23,18 +23,18 @@ def command() -> None:
     """The config file: show which options are in effect.
 
     The file is the nearest satcheck.toml, or pyproject.toml with [tool.satcheck], from the current
-    folder upward. It sets options of a check, of `satcheck each` and of `satcheck batch`. `satcheck
+    folder upward. It sets options of a check and of `satcheck batch`. `satcheck
     schema config` prints its JSON Schema.
     """
 
 
 @command.command("show", cls=Command, context_settings=_ANY)
-@click.argument("arguments", metavar="[each|batch] [OPTIONS]", nargs=-1, type=click.UNPROCESSED)
+@click.argument("arguments", metavar="[batch] [OPTIONS]", nargs=-1, type=click.UNPROCESSED)
 def show(arguments: Sequence[str]) -> None:
     """Print the options in effect, and where each comes from.
 
-    The options are those of `satcheck [OPTIONS]`, `satcheck each [OPTIONS]` or `satcheck batch
-    [OPTIONS]`. An option comes from its default, a line of the config file, or the command line.
+    The options are those of `satcheck [OPTIONS]` or `satcheck batch [OPTIONS]`. An option comes
+    from its default, a line of the config file, or the command line.
     """
     name, rest = COMMANDS[0], list(arguments)
     if rest and rest[0] in COMMANDS:
@@ -64,7 +64,7 @@ def _shown(ctx: click.Context, key: str, option: click.Option) -> str:
 
 
 def _in_words(option: click.Option, value: Any) -> str:
-    if is_inverted(option):
+    if option.flag_value is False:  # --no-timings
         return toml(not value)
     if value is None or value == () or value == {}:
         return "not set"

@@ -15,15 +15,15 @@ from satcheck.audit.summary import tool
 from satcheck.audit.words import at_most, counted, duration, with_unit
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import deliver, form_option, plain_call
+from satcheck.cli.format_option import deliver, form_option, plain_call, product_and_report
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.inputs import Inputs, load, refuse_early
+from satcheck.cli.inputs import load, refuse_early
 from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import HalfSpace, is_curved
 from satcheck.core.steps import step
-from satcheck.decompose import Cache, Decomposition, DecompositionError, decompose
+from satcheck.decompose import Cache, Decomposition, DecompositionError, decompose, user_cache
 from satcheck.report.decomposition import (
     DecomposedBody,
     DecompositionOptions,
@@ -57,13 +57,6 @@ class _Parts(Struct, frozen=True):
 @click.command("decompose", cls=Command, context_settings=HELP_NAMES)
 @option.paths("MESH")
 @click.option(
-    "--parts-out",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
-    help=f"Write the parts to FILE ({_FILES}): a node of a GLB or an object of an OBJ file each; "
-    "an STL file holds them all.",
-)
-@click.option(
     "--threshold",
     type=click.FloatRange(0, 1, min_open=True),
     metavar="RATIO",
@@ -80,23 +73,22 @@ class _Parts(Struct, frozen=True):
     show_default=True,
     help="The seed of CoACD's random search: the same seed gives the same parts.",
 )
-@option.seconds("--seconds", option.DEFAULTS.part_seconds, "The time limit of one body.")
 @form_option
-@option.output
-@option.cache
+@option.outputs(
+    f"Write the parts to FILE ({_FILES}): a node of a GLB or an object of an OBJ file each; an STL "
+    "file holds them all. Or the report (.json). Repeatable."
+)
 @scene_option.split
 @scene_option.units
-@scene_option.reading
-@option.color
-@option.debug
+@scene_option.outside
+@option.limits("body-seconds")
+@scene_option.read
+@option.common
 def command(
-    parts_out: Path | None,
-    output: Path | None,
+    outputs: tuple[Path, ...],
     threshold: float,
     seed: int,
-    seconds: float,
     form: str | None,
-    cache: bool,
     **options: Any,
 ) -> int:
     """Split meshes into convex parts, for physics engines.
@@ -108,19 +100,23 @@ def command(
 
     A cache keeps the parts: the folder `decompositions` below SATCHECK_CACHE_DIR, or else below
     ~/.cache/satcheck (macOS: ~/Library/Caches/satcheck, Windows: %LOCALAPPDATA%\\satcheck\\Cache).
-    Delete the folder to clear the cache.
+    Delete the folder to clear the cache; SATCHECK_CACHE=off does without it.
 
     Exit codes: 0, every body has its parts; 2, wrong usage, an unreadable input, no parts at all,
     or an internal error; 3, some bodies have no parts.
     """
-    _refuse_outputs(options["paths"], parts_out, output)
+    parts_out, output = product_and_report(outputs, written_meshes.FORMATS, form)
+    if not options["paths"]:
+        raise click.UsageError("give a mesh file or a scene")
     inputs, form, document = plain_call(options, form, output)
+    refuse_early(inputs, parts_out)
+    seconds = inputs.limit["body-seconds"]
     scene = load(inputs, least=1)
     if parts_out is not None:
         scene.require_one_unit()
     if not scene.bodies and form == "table":
         return exit_codes.ERROR  # the error is told
-    store = Cache() if cache else None
+    store = user_cache()
     bodies = []
     with Bar("bodies") as bar:
         for number, body in enumerate(scene.bodies, 1):
@@ -142,20 +138,6 @@ def command(
         return exit_codes.ERROR
     whole = all(each.has_parts for each in bodies)
     return exit_codes.CLEAN if whole else exit_codes.INCOMPLETE
-
-
-def _refuse_outputs(paths: tuple[str, ...], parts_out: Path | None, output: Path | None) -> None:
-    if not paths:
-        raise click.UsageError("give a mesh file or a scene")
-    if output is not None and output.suffix.lower() in written_meshes.FORMATS:
-        raise click.UsageError(
-            f"-o {output}: the report is no mesh; --parts-out {output} writes the parts"
-        )
-    if parts_out is None:
-        return
-    refuse_early(Inputs(paths), parts_out, option="--parts-out")
-    if parts_out.suffix.lower() not in written_meshes.FORMATS:
-        raise click.UsageError(f"--parts-out {parts_out}: parts are written as {_FILES}")
 
 
 def _split(

@@ -13,7 +13,7 @@ from satcheck.audit import Report, Settings, check
 from satcheck.audit.resolve.resolve import resolve
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import deliver, form_option, plain_call
+from satcheck.cli.format_option import deliver, form_option, plain_call, product_and_report
 from satcheck.cli.formats.resolution import render
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.option import in_units_of, length, settings_of
@@ -23,7 +23,7 @@ from satcheck.cli.progress import Bar
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.files.readers import SCENE_SUFFIXES, kind_of
+from satcheck.scene.files.readers import kind_of
 from satcheck.scene.loader import is_rules
 from satcheck.scene.new_scene_file import left_out_of, new_scene_file, stray_mesh
 from satcheck.scene.units import Length
@@ -31,12 +31,6 @@ from satcheck.scene.units import Length
 
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
 @option.paths("SCENE")
-@click.option(
-    "--scene-out",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
-    help="Write the moved scene as a scene file, .toml or .json. [default: show the moves only]",
-)
 @click.option(
     "--pin",
     "pins",
@@ -62,36 +56,34 @@ from satcheck.scene.units import Length
 @option.open_meshes
 @option.jobs
 @form_option
-@option.output
+@option.outputs(
+    "Write the moved scene to a scene file (.toml, .scene.json), or the report (.json). "
+    "Repeatable.  [default: show the moves only]"
+)
 @scene_option.one_scene
-@option.color
-@option.debug
+@option.common
 def command(
     form: str | None,
-    output: Path | None,
-    scene_out: Path | None,
+    outputs: tuple[Path, ...],
     pins: tuple[str, ...],
     max_motion: Length | None,
     iterations: int,
     **options: Any,
 ) -> int:
-    """Move the bodies of a scene apart, by short translations.
+    """Move the bodies of a scene apart, by short ways.
 
     SCENE is a scene file or mesh files, with or without robots. Static and pinned bodies stay, and
     so do the links of robots and pairs that the scene allows. The translations are short, not the
-    shortest. The moved scene is checked again (with --scene-out the file that was written), and
+    shortest. The moved scene is checked again (with -o moved.toml the file that was written), and
     what still overlaps is reported.
 
     Exit codes: 0, no pair overlaps any more; 1, a pair does; 2, wrong usage, an unreadable input,
     or an internal error; 3, nothing is known to overlap, but not everything could be checked.
     """
-    if form is None and output is not None and output.suffix.lower() == ".toml":
-        raise click.UsageError(
-            f"-o {output}: the report is no TOML; --scene-out {output} writes the moved scene"
-        )
+    scene_out, output = product_and_report(outputs, (".toml", ".scene.json"), form)
     inputs, form, document = plain_call(options, form, output)
     if scene_out is not None:
-        _refuse_output(inputs, scene_out, output)
+        _refuse_output(inputs, scene_out)
     scene = load(inputs)
     if inputs.has_poses:
         scene = posed_once(scene, inputs, "resolve takes one pose, which places the links")
@@ -113,6 +105,8 @@ def command(
             output=None if scene_out is None else str(scene_out),
         )
     deliver(document, resolution, form, output, partial(render, resolution, report))
+    if output is not None:
+        talk(f"{report.message} Report: {output}")
     if stray:
         talk(f"note: to read {scene_out} give --allow-outside, because of {stray}")
     if scene_out is not None and scene.robots:
@@ -120,20 +114,14 @@ def command(
     return exit_codes.for_verdict(report.summary.verdict, report.issues, exit_zero=False)
 
 
-def _refuse_output(inputs: Inputs, moved: Path, output: Path | None) -> None:
+def _refuse_output(inputs: Inputs, moved: Path) -> None:
     """Refuse what cannot be written before any work is done."""
-    refuse_early(inputs, moved, option="--scene-out")
-    if output is not None and output.absolute() == moved.absolute():
-        raise click.UsageError("--scene-out and -o name the same file")
-    if moved.suffix.lower() not in SCENE_SUFFIXES:
-        raise click.UsageError(
-            f"--scene-out {moved}: the moved scene is written as a .toml or .json file"
-        )
+    refuse_early(inputs, moved)
     bodies = [path for path in inputs.paths if len(inputs.paths) == 1 or not is_rules(path)]
     kinds = {kind_of(path) for path in bodies}
     if not (kinds <= {"mesh", "document"} or (kinds == {"scene"} and len(bodies) == 1)):
         raise click.UsageError(
-            "--scene-out needs one scene file, or files without joints and rules: links of robots "
+            f"-o {moved} needs one scene file, or files without joints and rules: links of robots "
             "are not moved"
         )
 
@@ -143,12 +131,12 @@ def _stray(output: Path, scene: Scene, *, allow_outside: bool) -> str | None:
     allow_outside, and for a body that the file cannot state."""
     for body in left_out_of(scene):
         raise click.UsageError(
-            f"--scene-out {output}: {body} could not be read, and a scene file cannot state it"
+            f"-o {output}: {body} could not be read, and a scene file cannot state it"
         )
     stray = stray_mesh(output, scene)
     if stray is not None and not allow_outside:
         raise click.UsageError(
-            f"--scene-out {output}: {stray} lies outside of its folder: write it into a "
+            f"-o {output}: {stray} lies outside of its folder: write it into a "
             "folder that contains the meshes, or add --allow-outside"
         )
     return stray

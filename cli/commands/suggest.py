@@ -58,8 +58,7 @@ FORMATS = ("toml", "json", "srdf")
 @scene_option.package
 @scene_option.geometry
 @scene_option.poses
-@option.color
-@option.debug
+@option.common
 def command(
     form: str | None,
     output: Path | None,

@@ -16,49 +16,33 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
 from satcheck.cli.formats.tradeoff import render
 from satcheck.cli.inputs import load
-from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
+from satcheck.cli.plotting import plot_option, refuse_plot, write_plot
 from satcheck.cli.progress import Bar
 
 
 @click.command("tradeoff", cls=Command, context_settings=HELP_NAMES)
 @option.paths("A B")
 @option.pair
-@click.option(
-    "--repeat",
-    type=click.IntRange(min=1),
-    metavar="N",
-    default=5,
-    show_default=True,
-    help="The number of runs of each rung; the rungs take turns.",
-)
-@option.seconds(
-    "--budget",
-    60.0,
-    "Time for the whole run. Rungs that do not fit are shown as not run.",
-)
 @plot_option("Draw error against time")
-@dark_option
 @option.method
 @form_option
 @option.output
 @scene_option.split
 @scene_option.merge
 @scene_option.units
-@scene_option.reading
-@option.color
-@option.debug
+@scene_option.outside
+@option.limits("run-seconds")
+@scene_option.read
+@option.common
 def command(
     form: str | None,
     output: Path | None,
     bodies: tuple[str, str] | None,
-    repeat: int,
-    budget: float,
     plot: Path | None,
     method: Method,
-    dark: bool,
     **options: Any,
 ) -> int:
-    """What accuracy costs in time: every rung of the ladder on one pair.
+    """Show what accuracy costs in time, on one pair.
 
     Boxes, oriented boxes, hulls, convex parts from coarse to fine, triangles and the Boolean of
     manifold3d answer about the same bodies. Each answer is compared with what the triangles prove.
@@ -72,11 +56,12 @@ def command(
     scene = load(inputs, tell_all=True)
     scene.require_in_space("tradeoff compares meshes in space only")
     pair = two_of(scene, bodies)
+    budget = inputs.limit["run-seconds"]
     with Bar("runs", "measuring") as bar:
-        result = tradeoff(pair, repeat=repeat, budget=budget, method=method, progress=bar)
+        result = tradeoff(pair, budget=budget, method=method, progress=bar)
     if plot:
         from satcheck.cli.formats.tradeoff_plot import draw
 
-        write_plot(draw([result], dark=dark), plot)
+        write_plot(draw([result]), plot)
     deliver(document, result, form, output, partial(render, result))
     return exit_codes.CLEAN if result.complete else exit_codes.INCOMPLETE

@@ -39,8 +39,7 @@ _CALLED: dict[Outcome, str] = {
 @form_option
 @option.output
 @scene_option.outside
-@option.color
-@option.debug
+@option.common
 def command(
     report: Path,
     root: Path,

@@ -1,39 +1,86 @@
-"""`satcheck view REPORT`: the picture of a report that was written earlier."""
+"""`satcheck view REPORT`: what was stored earlier, in any format, with pictures from its meshes."""
 
 from __future__ import annotations
 
 import os
 import sys
 import webbrowser
+from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from tempfile import mkdtemp
-from typing import Any
+from typing import NamedTuple
 
 import click
-from click.core import ParameterSource
 from msgspec.structs import replace
 
+from satcheck.audit.batch.manifest import read_manifest
+from satcheck.audit.batch.results import PART
+from satcheck.audit.batch.stored import Stored, StoredResults
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import form_of
+from satcheck.cli.format_option import Target, format_option, targets_of
+from satcheck.cli.formats.assets import asset_rank, overview
 from satcheck.cli.formats.picture import render
-from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.output import Document, issue_line, talk, write_file
-from satcheck.cli.rendering import files_line, refuse_pictures, taken_pictures, write_pictures
+from satcheck.cli.formats.registry import ALL, Format, kind_of
+from satcheck.cli.inputs import Inputs
+from satcheck.cli.output import Document, Page, issue_line, talk, write_file
+from satcheck.cli.rendering import (
+    Delivery,
+    files_line,
+    refuse_of_poses,
+    refuse_outputs,
+    rendered,
+)
 from satcheck.cli.stated_scene import read_stored, stated_scene
-from satcheck.report.assets import AssetsReport
-from satcheck.report.report import Report
+from satcheck.cli.worlds import INTERRUPTED, Drawing, deliver_assets, tell_assets
+from satcheck.report.assets import AssetsReport, AssetVerdict
+from satcheck.report.report import NOTHING_TO_CHECK, Issue, Report
 from satcheck.report.samples import SamplesReport
+from satcheck.scene import Scene
+from satcheck.scene.words import meant
+
+# Assets that a table lists without --top, and findings with a picture.
+TOP = 100
+_RESULTS = (".jsonl", ".ndjson", PART)
+_FORMATS = {
+    "html": Format(
+        "html", (".html", ".htm"), about="a 3-D view, of several assets a gallery of the worst"
+    )
+}
 
 
 @click.command("view", cls=Command, context_settings=HELP_NAMES)
-@click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
-@option.output
-@option.pictures
+@click.argument(
+    "reports",
+    metavar="REPORT ...",
+    nargs=-1,
+    required=True,
+    type=click.Path(dir_okay=False, path_type=Path),
+)
+@format_option(ALL, "as the file of -o ends, otherwise a page in the browser", also=_FORMATS)
+@option.outputs(
+    "Write to FILE, in the format that its name ends with; - is standard output. Repeatable."
+)
 @click.option(
     "--asset",
     metavar="FILE",
-    help="The asset to show, if a report of satcheck each has several.",
+    help="Show this asset alone.  [default: in 3-D the worst, otherwise all]",
+)
+@click.option(
+    "--top",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Report the N worst assets, the worst first; in a gallery and for --pictures their worst "
+    f"findings. The summary and the exit code count all.  [default: {TOP} in a table and a "
+    "gallery, otherwise all]",
+)
+@click.option(
+    "--pictures",
+    "folder",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Also write images of the worst findings into DIR, as PNG.",
 )
 @click.option(
     "--pose",
@@ -41,85 +88,167 @@ from satcheck.report.samples import SamplesReport
     metavar="NUMBER",
     help="The pose to show, if a report has several.  [default: all on a page, else the worst]",
 )
-@option.root
 @click.option(
     "--parts",
     is_flag=True,
     help="Split the bodies with findings, so that the page shows their convex parts. A report of "
     "--accuracy parts has them anyway.",
 )
-@option.cache
+@click.option(
+    "--manifest",
+    metavar="FILE",
+    help="Expect a result for each asset that FILE names, one per line, as satcheck batch does.",
+)
+@option.root
 @scene_option.outside
-@option.color
-@option.debug
+@option.exit_zero
+@option.common
 def command(
-    report: Path,
-    output: Path | None,
+    reports: tuple[Path, ...],
+    form: str | None,
+    outputs: tuple[Path, ...],
     asset: str | None,
+    top: int | None,
+    folder: Path | None,
     pose: int | None,
-    root: Path,
     parts: bool,
-    cache: bool,
+    manifest: str | None,
+    root: Path,
     allow_outside: bool,
-    **options: Any,
+    exit_zero: bool,
 ) -> int:
-    """Show a report in 3-D, from its mesh files.
+    """Show a stored report in 3-D, or in any other format.
 
-    REPORT is a JSON report of a check. satcheck reads the mesh files again, and names each file
-    that has changed since the check. Without -o the page opens in the browser; -o takes .html,
-    .png, .glb and .bcf. The page shows where surfaces cross if the check had --contacts.
+    REPORT is a JSON report of a check or of many assets, or results that satcheck batch wrote
+    (.jsonl); those of several shards are one report. Without -o and --format its worst asset opens
+    in the browser. For pictures the mesh files are read again: a file that has changed since the
+    check is named, and a gallery says so in place of the picture.
 
-    Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
-    an internal error; 3, a file is missing or has changed, or the report does not say where bodies
-    stand.
+    The exit code is that of the check, also of a batch that did not finish: that is never a pass.
+    Of a 3-D view alone it is 0, or 3 if a file is missing or has changed.
     """
-    form = form_of(None, output, ("picture",)) if output else "html"
-    pictures, inputs = taken_pictures(options), Inputs((str(report),))
-    refuse_early(inputs, output)
-    refuse_pictures(pictures, inputs, output)
-    stated = _report_of(report, asset)
-    if pose is not None and not isinstance(stated, SamplesReport):
-        raise click.UsageError(f"--pose: {report} is about one pose")
-    scene, issues = stated_scene(stated, root, allow_outside=allow_outside)
-    for issue in issues:
-        talk(f"satcheck: {issue_line(issue)}")
-    document = Document()
-    stated = replace(stated, issues=(*issues, *stated.issues))
-    split = parts or stated.settings.accuracy == "parts"
-    named = _is_named("output")
-    if named or not pictures:
-        content = render(form, stated, scene, split=split, cache=cache, pose=pose)
-        if named:
-            document.deliver(lambda _: content, output, utf8=True)
-        else:
-            _show(content, document)
-    write_pictures(pictures, stated, scene, pose)
-    if pictures:
-        talk(files_line(stated, scene, form, None, pictures))
-    return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
+    inputs = Inputs(tuple(map(str, (*reports, *filter(None, [manifest])))))
+    is_opened = form is None and not outputs and folder is None
+    refuse_outputs(outputs, inputs)
+    targets = () if is_opened else targets_of(form, outputs, ALL, _FORMATS)
+    view = _View(
+        document=Document(),
+        to=Delivery(targets, quiet=False, exit_zero=exit_zero, timings=True, top=top),
+        drawing=Drawing(root, folder, allow_outside, top or TOP),
+        parts=parts,
+        pose=pose,
+    )
+    if any(path.suffix.lower() in _RESULTS for path in reports):
+        expected = () if manifest is None else read_manifest(manifest)
+        with StoredResults(reports, expected) as results:
+            return view.assets(results, results.issues, results.least, asset)
+    if len(reports) > 1 or manifest is not None:
+        raise click.UsageError("several files are results of satcheck batch, which end in .jsonl")
+    stored = read_stored(reports[0])
+    if isinstance(stored, AssetsReport):
+        each = [Stored((asset.file,), (), asset) for asset in stored.assets]
+        return view.assets(each, stored.issues, _least(stored), asset)
+    if asset is not None:
+        raise click.UsageError(f"--asset: {reports[0]} is the report of one check")
+    return view.report(stored)
 
 
-def _report_of(path: Path, asset: str | None) -> Report | SamplesReport:
-    document = read_stored(path)
-    if not isinstance(document, AssetsReport):
-        if asset is not None:
-            raise click.UsageError(f"--asset: {path} is the report of one check")
-        return document
-    return _of_asset(document, path, asset)
+def _least(stored: AssetsReport) -> AssetVerdict:
+    """Return what the issues of a report allow at best."""
+    is_open = any(issue.code in (INTERRUPTED, NOTHING_TO_CHECK) for issue in stored.issues)
+    return "incomplete" if is_open else "pass"
 
 
-def _of_asset(document: AssetsReport, path: Path, asset: str | None) -> Report:
-    named = [each for each in document.assets if asset in (None, each.file)]
-    if len(named) != 1:
-        files = ", ".join(each.file for each in document.assets)
-        raise click.UsageError(f"{path} has several assets: name one with --asset: {files}")
-    return named[0].report
+class _View(NamedTuple):
+    """How a stored report is shown. to: without a target a page opens in the browser. parts: a page
+    shows the convex parts of bodies. pose: of several that one."""
+
+    document: Document
+    to: Delivery
+    drawing: Drawing
+    parts: bool
+    pose: int | None
+
+    def assets(
+        self,
+        stored: Sequence[Stored] | StoredResults,
+        issues: tuple[Issue, ...],
+        least: AssetVerdict,
+        name: str | None,
+    ) -> int:
+        """Show many assets, or one of them: the named one, or in 3-D the worst."""
+        if name is not None:
+            return self.report(_named(stored, name))
+        alone = [target for target in self.to.targets if _is_scene(target)]
+        others = tuple(target for target in self.to.targets if not _is_scene(target))
+        is_page = not self.to.targets and self.drawing.folder is None
+        code = exit_codes.CLEAN
+        if (alone or is_page) and len(stored):
+            worst = min((each.asset for each in stored), key=asset_rank)
+            if len(stored) > 1:
+                named = f"{worst.file} is the worst of {len(stored):,} assets"
+                talk(f"satcheck: {named}: --asset names another")
+            code = self._replace(to=replace(self.to, targets=tuple(alone))).report(worst.report)
+        if is_page or not others:
+            return code
+        to = replace(self.to, targets=others)
+        found = (each.asset for each in stored)
+        seen = overview(found, issues, least=least, top=self.drawing.top)
+        deliver_assets(self.document, seen, stored, to, self.drawing, only_shown=to.top is not None)
+        tell_assets(seen, to)
+        return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
+
+    def report(self, stated: Report | SamplesReport) -> int:
+        """Show the report of one check. Pictures need its scene, which is read again."""
+        if isinstance(stated, SamplesReport):
+            refuse_of_poses(self.to.forms)
+        elif self.pose is not None:
+            raise click.UsageError("--pose: the report is about one pose")
+        pictures = [t for t in self.to.targets if kind_of(t.form) == "picture"]
+        scene, issues = Scene(name="", units=stated.units, bodies=()), list[Issue]()
+        if pictures or not self.to.targets:
+            root, allow_outside = self.drawing.root, self.drawing.allow_outside
+            scene, issues = stated_scene(stated, root, allow_outside=allow_outside)
+        for issue in issues:
+            talk(f"satcheck: {issue_line(issue)}")
+        stated = replace(stated, issues=(*issues, *stated.issues))
+        for form, output in ((target.form, target.output) for target in self.to.targets):
+            text = partial(self._rendered, form, stated, scene)
+            self.document.deliver(text, output, utf8=form != "table")
+        if not self.to.targets:
+            _show(self._drawn("html", stated, scene), self.document)
+        elif files := files_line(stated, scene, self.to.targets):
+            talk(files)
+        if len(pictures) == len(self.to.targets):
+            return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
+        verdict = stated.summary.verdict
+        return exit_codes.for_verdict(verdict, stated.issues, exit_zero=self.to.exit_zero)
+
+    def _rendered(
+        self, form: str, stated: Report | SamplesReport, scene: Scene, page: Page
+    ) -> str | bytes | Iterable[str]:
+        if kind_of(form) == "picture":
+            return self._drawn(form, stated, scene)
+        return rendered(stated, scene, form, self.to, page)
+
+    def _drawn(self, form: str, stated: Report | SamplesReport, scene: Scene) -> str | bytes:
+        split = self.parts or stated.settings.accuracy == "parts"
+        return render(form, stated, scene, split=split, pose=self.pose)
 
 
-def _is_named(option: str) -> bool:
-    """Also as standard output."""
-    source = click.get_current_context().get_parameter_source(option)
-    return source is not ParameterSource.DEFAULT
+def _is_scene(target: Target) -> bool:
+    """Return whether a document shows one scene: of several assets the worst."""
+    return kind_of(target.form) == "picture" and target.form != "html"
+
+
+def _named(stored: Iterable[Stored], name: str) -> Report:
+    """Return the report of an asset. click.UsageError if there is none."""
+    names = []
+    for asset in (each.asset for each in stored):
+        if asset.file == name:
+            return asset.report
+        names.append(asset.file)
+    raise click.UsageError(f"--asset: no asset is {name}{meant(name, names)}")
 
 
 def _show(content: bytes | str, document: Document) -> None:

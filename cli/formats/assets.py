@@ -151,17 +151,17 @@ def _next_step(seen: Overview) -> list[str]:
     unsure = [] if failing else seen.named.get("incomplete", [])[:1]
     unsure = [file for file in unsure if not is_folder(file)]  # of files that no check reads
     ctx = click.get_current_context(silent=True)
-    if ctx is None or ctx.info_name != "report":
+    if ctx is None or ctx.info_name != "view":
         steps = [f"Next: {_check_of(file)} lists its pairs." for file in failing]
         return steps + [f"Next: {_check_of(file)} says what is open." for file in unsure]
-    is_written = ctx.params.get("output") is not None
+    is_written = bool(ctx.params.get("outputs"))
     return ["Next: -o worst.html shows the worst pairs."] if failing and not is_written else []
 
 
 def _check_of(file: str) -> str:
     """With the options of this call, if a command renders."""
     ctx = click.get_current_context(silent=True)
-    if ctx is None or ctx.info_name not in ("batch", "each"):
+    if ctx is None or ctx.info_name != "batch":
         return f"satcheck {shlex.quote(file)}"
     from satcheck.cli.slips import check_of
 
@@ -225,9 +225,14 @@ class Overview(Struct):
     least: AssetVerdict = "pass"
 
     @property
+    def verdicts(self) -> Counter[AssetVerdict]:
+        """Those of the assets, and the one that the issues allow at best."""
+        return self.counts + Counter([self.least])
+
+    @property
     def verdict(self) -> AssetVerdict:
         """The worst."""
-        return worst_verdict(self.counts + Counter([self.least]))
+        return worst_verdict(self.verdicts)
 
     def has(self, verdict: AssetVerdict) -> bool:
         return bool(self.counts[verdict]) or verdict == self.least

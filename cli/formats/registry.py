@@ -58,7 +58,7 @@ def _picture(name: str, *endings: str, about: str) -> Format:
 
 
 _BUILT_IN = (
-    Format("table", kind="plain"),
+    Format("table", (".txt",), kind="plain"),
     Format("json", (".json",), kind="plain"),
     _for_ci("sarif", ".sarif"),
     _for_ci("junit", ".xml"),

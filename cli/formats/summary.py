@@ -221,7 +221,7 @@ def _open(report: Report) -> Iterator[str]:
     elif _depends_on_holes(report, undecided):
         yield "close the holes, or give --allow-open if they are meant to be open"
     elif any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
-        yield "a larger --depth-budget may decide it"
+        yield "a larger --budget may decide it"
     else:
         yield "--explain shows the steps"
 

@@ -322,7 +322,9 @@ def required_reader(ending: str) -> Reader:
     reader = reader_of(ending)
     if reader is not None:
         return reader
-    known = f"known are {', '.join(sorted(filter(mesh_reader, readers())))}"
+    meshes = ", ".join(sorted(filter(mesh_reader, readers())))
+    others = ", ".join(sorted((*SCENE_SUFFIXES, *robot_endings(), ".srdf")))
+    known = f"known are {meshes}, and of scenes and robots {others}"
     hint = _CONVERTIBLE.get(ending.lower(), known)
     message = f"unsupported format {ending!r}: {hint}{failures('readers', KINDS)}"
     raise Refused("unsupported-format", message)

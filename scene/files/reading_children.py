@@ -124,10 +124,10 @@ def _lost(error: WorkerError, file: File, megabytes: int) -> Refused:
     """The error for a child that was stopped or died while it read a file."""
     kind, code = file.format.upper(), "reader-failed"
     if isinstance(error, WorkerTimeout):
-        limit = f"{error.seconds:g} s (raise it with --seconds-per-file)"
+        limit = f"{error.seconds:g} s (raise it with --limit seconds=N)"
         code, said = "reader-timeout", f"reading this {kind} file was stopped after {limit}"
     elif error.code == "worker-out-of-memory":
-        limit = f"{megabytes} MiB (raise it with --megabytes-per-file)"
+        limit = f"{megabytes} MiB (raise it with --limit megabytes=N)"
         code, said = "reader-out-of-memory", f"reading this {kind} file needs more than {limit}"
     elif isinstance(error, WorkerFailed):
         what = f"{error.exception_type}: {error.exception_message}"

@@ -64,7 +64,7 @@ def test_max_depth_asks_for_the_depth_of_its_pairs_alone(tmp_path):
     write(tmp_path, box=unit_box())
     bodies = [(f"b{k}", "box.obj", pose(0.75 * k)) for k in range(3)]
     scene = ruled(placed_scene(tmp_path, bodies), rule("b0", "b1", max_depth=1.0))
-    found = {(f.a, f.b): f.depth for f in check(scene).findings}
+    found = {(f.a, f.b): f.depth for f in check(scene, Settings(depth=False)).findings}
     assert found == {("b0", "b1"): 0.25, ("b0", "b2"): None, ("b1", "b2"): None}
 
 
@@ -74,7 +74,7 @@ CONCAVE = {0.5: "note", 0.48: "error"}
 
 @pytest.mark.parametrize("limit", CONCAVE)
 def test_the_interval_is_narrowed_until_it_is_on_one_side_of_the_limit(limit):
-    scene, wide = load_scene([KETTLE, SNOWFLAKE]), Settings(depth_width=0.3)
+    scene, wide = load_scene([KETTLE, SNOWFLAKE]), Settings(width=0.3)
     low, high = only(check(scene, wide)).depth_bounds
     assert low < 0.48 < 0.5 < high
     report = check(ruled(scene, rule(max_depth=limit)), wide)
@@ -87,7 +87,7 @@ def test_the_interval_is_narrowed_until_it_is_on_one_side_of_the_limit(limit):
 
 def test_a_limit_that_the_budget_does_not_decide_leaves_the_check_incomplete(tmp_path):
     scene = scene_of(tmp_path, a=bracket(), b=unit_box(1.5, 3, 1, edge=2.0))
-    settings = Settings(depth_budget=1e-6)
+    settings = Settings(budget=1e-6)
     low, high = only(check(scene, settings)).depth_bounds
     assert low < high
     report = check(ruled(scene, rule(max_depth=0.5 * (low + high))), settings)

@@ -16,9 +16,9 @@ from satcheck.core.errors import SatcheckError
         {"clearance": "5mm"},
         {"tolerance": float("inf")},
         {"accuracy": "best"},
-        {"depth_width": 0.0},
-        {"depth_budget": 0.0},
-        {"depth_budget": float("nan")},
+        {"width": 0.0},
+        {"budget": 0.0},
+        {"budget": float("nan")},
         {"jobs": -1},
     ],
 )

@@ -59,7 +59,7 @@ def test_meshes(tmp_path: Path, family: Any) -> None:
     draw = random.Random(3)
     for pair in family.cases(3):
         if draw.random() < 0.15 or pair.name.startswith("rod through the wall of a ring, mixed"):
-            settings = Settings(tolerance=draw.choice((None, 1e-9, 0.05)), depth_budget=0.1)
+            settings = Settings(tolerance=draw.choice((None, 1e-9, 0.05)), budget=0.1)
             a = (pair.a.vertices, pair.a.triangles)
             b = (pair.b.vertices, pair.b.triangles)
             expect_mirrored(tmp_path, a, b, settings, pair.name)
@@ -70,5 +70,5 @@ def test_outlines_in_a_plane(tmp_path: Path, x: float, y: float) -> None:
     """Two Ls that are hooked into each other, one of them upside down."""
     points, faces = moved(bracket(), x, y, 0)
     upturned = [(7.0 - u, 5.0 - v, w) for u, v, w in points], faces
-    settings = Settings(planar="xy", depth_budget=0.1)
+    settings = Settings(planar="xy", budget=0.1)
     expect_mirrored(tmp_path, bracket(), upturned, settings, f"{x}, {y}")

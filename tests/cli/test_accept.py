@@ -63,7 +63,7 @@ def test_rules_and_the_config_accept_too(robot: Path) -> None:
     assert satcheck("r.urdf", "--rules", "rules.toml", cwd=robot).code == 0
     (robot / "satcheck.toml").write_text(f'accept = ["{code}"]\n', encoding="utf-8")
     assert satcheck("r.urdf", cwd=robot).code == 0
-    assert satcheck("each", "r.urdf", cwd=robot).code == 0
+    assert satcheck("batch", "r.urdf", cwd=robot).code == 0
 
 
 def test_a_scene_accepts_for_the_files_that_it_names_alone(robot: Path) -> None:
@@ -88,10 +88,10 @@ def test_a_scene_accepts_for_the_files_that_it_names_alone(robot: Path) -> None:
 
 def test_an_acceptance_need_not_be_about_every_asset(robot: Path) -> None:
     shutil.copy(SAMPLES / "box.obj", robot)
-    ran = satcheck("each", ".", "--accept", f"{code_of(robot)}:r.urdf", cwd=robot)
+    ran = satcheck("batch", ".", "--accept", f"{code_of(robot)}:r.urdf", cwd=robot)
     assert ran.code == 0
     assert "nothing is accepted" not in ran.out + ran.err
-    ran = satcheck("each", ".", "--accept", "unread:gone.urdf", cwd=robot)
+    ran = satcheck("batch", ".", "--accept", "unread:gone.urdf", cwd=robot)
     assert ran.code == 3
     assert 'nothing is accepted by "unread:gone.urdf"' in ran.out + ran.err
     assert "Next: satcheck r.urdf" in ran.out
@@ -105,7 +105,7 @@ def test_rules_that_allow_every_pair_do_not_hide_what_is_not_read(tmp_path: Path
     document = json.loads(data[20 : 20 + length])
     rules = '[[rules]]\na = "*"\nb = "*"\nallowed = true\nreason = "glued"\n'
     (tmp_path / "rules.toml").write_text(rules, encoding="utf-8")
-    asked = ("each", "gripper.glb", "--rules", "rules.toml")
+    asked = ("batch", "gripper.glb", "--rules", "rules.toml")
     assert satcheck(*asked, cwd=tmp_path).code == 0
     text = json.dumps(document | {"extensionsUsed": ["NEW_bodies"]}).encode()
     text += b" " * (-len(text) % 4)
@@ -115,7 +115,7 @@ def test_rules_that_allow_every_pair_do_not_hide_what_is_not_read(tmp_path: Path
     assert satcheck(*asked, cwd=tmp_path).code == 3
 
 
-@pytest.mark.parametrize("command", [(), ("each",)])
+@pytest.mark.parametrize("command", [(), ("batch",)])
 def test_an_error_is_not_accepted(robot: Path, command: tuple[str, ...]) -> None:
     ran = satcheck(*command, "r.urdf", "--accept", "misspelt", cwd=robot)
     assert (ran.code, ran.out) == (2, "")

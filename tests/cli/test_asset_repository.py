@@ -18,7 +18,7 @@ GATED = f'{CONFIG}baseline = "known.json"\n'
 
 
 def each(folder: Path, *more: str) -> Ran:
-    return satcheck("each", "assets", *more, cwd=folder)
+    return satcheck("batch", "assets", *more, cwd=folder)
 
 
 def verdicts(folder: Path) -> dict[str, str]:
@@ -93,9 +93,9 @@ def test_what_the_hook_gets_is_checked(gated: Path) -> None:
     """pre-commit calls the command with the names of staged files."""
     write_shelf(gated / "assets", 105)
     staged = ("assets/bolt.obj", "assets/shelf.scene.toml")
-    assert satcheck("each", *staged, cwd=gated).code == 1
+    assert satcheck("batch", *staged, cwd=gated).code == 1
     write_shelf(gated / "assets", 110)
-    assert satcheck("each", *staged, cwd=gated).code == 0
+    assert satcheck("batch", *staged, cwd=gated).code == 0
 
 
 def test_the_hook_is_about_every_format_that_needs_no_option_and_no_extra() -> None:

@@ -26,10 +26,10 @@ WRITERS: dict[str, tuple[tuple[str, ...], str]] = {
     "table": (("-o", "{}", "--explain", *PUSHED), "out.txt"),
     "samples": (("-o", "{}", "arm.urdf", "--sample", "2"), "out.json"),
     "resolve": (("resolve", "-o", "{}", *PUSHED), "out.json"),
-    "scene": (("resolve", "--scene-out", "{}", *PUSHED, "--allow-outside"), "out.json"),
+    "scene": (("resolve", "-o", "{}", *PUSHED, "--allow-outside"), "out.json"),
     "suggest": (("suggest", "-o", "{}", "rack.3mf"), "out.toml"),
-    "tradeoff": (("tradeoff", "-o", "{}", "--repeat", "1", "--budget", "1", *PUSHED), "out.json"),
-    "plot": (("tradeoff", "--plot", "{}", "--repeat", "1", "--budget", "1", *PUSHED), "out.svg"),
+    "tradeoff": (("tradeoff", "-o", "{}", "--limit", "run-seconds=1", *PUSHED), "out.json"),
+    "plot": (("tradeoff", "--plot", "{}", "--limit", "run-seconds=1", *PUSHED), "out.svg"),
 }
 
 

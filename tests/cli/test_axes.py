@@ -13,7 +13,7 @@ from matplotlib.image import imread
 
 from satcheck.cli.commands.schema import text
 from satcheck.cli.formats.axes_plot import MOST_LINES, WIDTH
-from satcheck.cli.formats.plot_style import DARK
+from satcheck.cli.formats.plot_style import LIGHT
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
 
 SCHEMA = Draft202012Validator(json.loads(text("axes")))
@@ -114,12 +114,12 @@ def test_a_plot_has_a_line_for_each_axis_up_to_some(tmp_path: Path, pair: tuple[
     assert again.read_bytes() == plot.read_bytes()
 
 
-def test_a_plot_is_an_image_on_dark_paper_if_asked(tmp_path: Path) -> None:
+def test_a_plot_is_an_image(tmp_path: Path) -> None:
     plot = tmp_path / "plot.png"
-    assert satcheck("axes", *APART, "--plot", str(plot), "--dark").code == 0
+    assert satcheck("axes", *APART, "--plot", str(plot)).code == 0
     image = imread(plot)
     assert image.shape[1] == 2 * WIDTH
-    assert to_hex(image[0, 0]) == DARK.paper
+    assert to_hex(image[0, 0]) == LIGHT.paper
 
 
 @pytest.mark.parametrize(

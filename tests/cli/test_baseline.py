@@ -227,10 +227,10 @@ class Repository:
         return satcheck(*arguments, cwd=self.folder)
 
     def report(self) -> None:
-        self.run("each", ".", "--depth", "-o", "report.json")
+        self.run("batch", ".", "--depth", "-o", "report.json")
 
     def gate(self) -> Ran:
-        return self.run("each", ".", "--depth", "--baseline", "known.json")
+        return self.run("batch", ".", "--depth", "--baseline", "known.json")
 
     def known(self) -> list[str]:
         document = json.loads((self.folder / "known.json").read_text())
@@ -249,7 +249,7 @@ def test_the_life_of_a_baseline(tmp_path: Path) -> None:
     failed = repository.gate()
     assert failed.code == 1
     assert "1 known finding, 1 new" in failed.out
-    unmeasured = repository.run("each", ".", "--no-depth", "--baseline", "known.json")
+    unmeasured = repository.run("batch", ".", "--no-depth", "--baseline", "known.json")
     assert unmeasured.code == 1
     assert "1 undecided. Undecided findings need figures: add --depth" in unmeasured.out
     repository.report()
@@ -310,7 +310,7 @@ def test_what_is_no_baseline(text: str, said: str, tmp_path: Path) -> None:
     assert said in ran.err
 
 
-@pytest.mark.parametrize("command", [("each", "."), ("box.obj", "cube.off")])
+@pytest.mark.parametrize("command", [("batch", "."), ("box.obj", "cube.off")])
 def test_a_report_does_not_overwrite_its_baseline(command: tuple[str, ...], tmp_path: Path) -> None:
     path = tmp_path / "b.json"
     path.write_text('{"schema": "satcheck.baseline/1"}')

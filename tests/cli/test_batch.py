@@ -89,9 +89,9 @@ def test_a_manifest_that_names_nothing_is_told(tmp_path: Path) -> None:
 
 
 def test_results_do_not_go_to_standard_output(scenes: Path, tmp_path: Path) -> None:
-    ran = satcheck("batch", str(scenes), "-o", "-", cwd=tmp_path)
+    ran = satcheck("batch", str(scenes), "-o", "-", "--format", "results", cwd=tmp_path)
     assert ran.code == 2
-    assert "name a file" in ran.err
+    assert "name it, -o results.jsonl" in ran.err
     assert not (tmp_path / "-").exists()
 
 
@@ -150,13 +150,13 @@ def test_a_report_is_that_of_each(
         '[[rules]]\na = "a"\nb = "b"\nallowed = true\nreason = "known"\n'
         '[[rules]]\na = "none"\nb = "b"\nallowed = true\nreason = "unused"\n'
     )
-    Path("satcheck.toml").write_text("depth-width = 0.5\n")
+    Path("satcheck.toml").write_text("width = 0.5\n")
     here = scenes.parent
-    satcheck("each", "scenes", "-o", "report.json", cwd=here)
+    satcheck("batch", "scenes", "-o", "report.json", cwd=here)
     satcheck("baseline", "write", "baseline.json", "report.json", cwd=here)
     ran = satcheck("batch", "scenes/*.toml", "-o", "results.jsonl", *options, cwd=here)
     form = ["--format", "json", "--no-timings"]
-    each = satcheck("each", "scenes/*.toml", *form, *options, cwd=here)
+    each = satcheck("batch", "scenes/*.toml", *form, *options, cwd=here)
     assert ran.code == each.code, ran.err
     assert each.out, each.err
     asked = {Path(asset["file"]).name: asset for asset in each.document["assets"]}

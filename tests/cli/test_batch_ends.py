@@ -35,7 +35,8 @@ def start(tmp_path: Path) -> Iterator[Start]:
     running: list[subprocess.Popen[str]] = []
 
     def begin(*options: str, **more: Any) -> subprocess.Popen[str]:
-        words = command("batch", "scenes", "-o", "results.jsonl", "-j", "2", *options)
+        output = () if "-o" in options else ("-o", "results.jsonl")
+        words = command("batch", "scenes", *output, "-j", "2", *options)
         pipe = subprocess.PIPE
         run = subprocess.Popen(
             words, cwd=tmp_path, env=variables, stdout=pipe, stderr=pipe, text=True, **more
@@ -93,7 +94,7 @@ def test_ctrl_c(start: Start, tmp_path: Path) -> None:
     code, err = finished(run)
     kept = recorded(tmp_path)
     assert code == 130
-    told = re.search(rf"(\d+) of {COUNT} scenes are recorded", err)
+    told = re.search(rf"(\d+) of {COUNT} assets are recorded", err)
     # A line may have been written, and not been counted yet.
     assert told is not None
     assert 1 <= int(told[1]) <= len(kept)
@@ -123,7 +124,7 @@ def test_a_full_disk(start: Start, tmp_path: Path) -> None:
     assert code == 2
     assert "cannot-write" in err
     kept = recorded(tmp_path)
-    assert f"{len(kept)} of {COUNT} scenes are recorded" in err
+    assert f"{len(kept)} of {COUNT} assets are recorded" in err
     resumed(start, tmp_path, kept)
 
 

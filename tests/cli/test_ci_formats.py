@@ -266,7 +266,7 @@ def test_the_name_of_the_file_chooses_the_format(form: str, tmp_path: Path) -> N
 def test_only_a_report_has_these_formats() -> None:
     ran = satcheck("resolve", "box.obj", "box_pushed.stl", "-o", "x.sarif", cwd=SAMPLES)
     assert ran.code == 2
-    assert "table, json" in ran.err
+    assert ".scene.json, .txt, .json" in ran.err
 
 
 SCENE = """\
@@ -303,7 +303,7 @@ def places(sarif: str) -> list[tuple[str, int]]:
     return [(p["artifactLocation"]["uri"], p["region"]["startLine"]) for p in physical]
 
 
-@pytest.mark.parametrize("command", [(), ("each",)])
+@pytest.mark.parametrize("command", [(), ("batch",)])
 def test_a_result_is_where_a_scene_states_the_body(
     tmp_path: Path, command: tuple[str, ...]
 ) -> None:
@@ -336,7 +336,7 @@ def test_a_result_is_where_a_robot_states_the_body(tmp_path: Path) -> None:
 
 def test_a_wrong_scene_is_annotated_at_its_line(tmp_path: Path) -> None:
     (tmp_path / "cell.toml").write_text(SCENE.replace("position", "positon"), encoding="utf-8")
-    ran = satcheck("each", "cell.toml", "--format", "sarif", cwd=tmp_path)
+    ran = satcheck("batch", "cell.toml", "--format", "sarif", cwd=tmp_path)
     assert (ran.code, places(ran.out)) == (2, [("cell.toml", 10)])
 
 

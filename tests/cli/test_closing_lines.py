@@ -47,9 +47,11 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
 
 def test_the_word_of_the_command_is_that_of_its_exit_code() -> None:
     made = report(PENETRATING, issues=(reports.MISSING,))
-    assert made.message.startswith("FAIL: block and block_pushed overlap (depth 1). 1 input could")
+    assert made.message.startswith(
+        "FAIL: block and block_pushed overlap (1 to pull apart). 1 input could"
+    )
     text = render(made, WIDE, explain=False, timings=True)
-    assert "\nERROR: block and block_pushed overlap (depth 1). 1 input could" in text
+    assert "\nERROR: block and block_pushed overlap (1 to pull apart). 1 input could" in text
 
 
 def test_meshes_that_decide_nothing_share_a_line() -> None:
@@ -89,7 +91,8 @@ def test_an_open_mesh_that_decides_names_the_option() -> None:
             (
                 "2 bodies, 5 pairs: 3 penetrating, 1 containing, 1 indeterminate. "
                 "1 pair hits in motion.",
-                "FAIL: 3 of 5 pairs overlap, 1 hits in motion; worst: block and other overlap. "
+                "FAIL: 3 of 5 pairs overlap, 1 hits in motion; worst: "
+                "a_rather_long_name contains another_rather_long_name (1.25 ±0.01 to pull apart). "
                 "1 pair is indeterminate. Next: -o report.html shows them in 3-D.",
             ),
         ),
@@ -160,7 +163,7 @@ def test_an_open_mesh_that_decides_names_the_option() -> None:
             (
                 "2 bodies, 1 pair: 1 penetrating.",
                 "INCOMPLETE: no collision beyond what rules allow was found, "
-                "but 1 pair may exceed its limits. Next: a larger --depth-budget may decide it.",
+                "but 1 pair may exceed its limits. Next: a larger --budget may decide it.",
             ),
         ),
     ],

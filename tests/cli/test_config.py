@@ -69,7 +69,7 @@ def test_the_name_of_a_report_wins_over_a_format(folder: Path) -> None:
     assert json.loads((folder / "report.json").read_text())["schema"] == "satcheck.report/1"
 
 
-@pytest.mark.parametrize("command", [(), ("each",)])
+@pytest.mark.parametrize("command", [(), ("batch",)])
 def test_paths_are_relative_to_the_config_file(folder: Path, command: tuple[str, ...]) -> None:
     rule = '[[rules]]\na = "box"\nb = "box_pushed"\nallowed = true\nreason = "glued"\n'
     config(folder, rule, "allowed.toml")
@@ -118,15 +118,15 @@ def test_a_link_that_leads_nowhere_is_not_passed_over(folder: Path) -> None:
 
 
 def test_show_says_where_options_come_from(folder: Path) -> None:
-    config(folder, 'changed-since = "main"\nno-cache = true\nstate = ["a", "b"]\n')
+    config(folder, 'changed-since = "main"\nno-timings = true\nstate = ["a", "b"]\n')
     shown = in_effect("--no-depth", "--clearance", "2mm", cwd=folder)
-    assert shown["no-cache"] == ("true", "satcheck.toml:2")
+    assert shown["no-timings"] == ("true", "satcheck.toml:2")
     assert shown["state"] == ('["a", "b"]', "satcheck.toml:3")
     assert shown["depth"] == ("false", "command line")
     assert shown["clearance"] == ('"2mm"', "command line")
     assert shown["accuracy"] == ('"exact"', "default")
     assert "changed-since" not in shown
-    assert in_effect("each", cwd=folder)["changed-since"] == ('"main"', "satcheck.toml:1")
+    assert in_effect("batch", cwd=folder)["changed-since"] == ('"main"', "satcheck.toml:1")
 
 
 @pytest.mark.parametrize(
@@ -141,7 +141,7 @@ def test_show_says_where_options_come_from(folder: Path) -> None:
         ("tolerance = true\n", "satcheck.toml:1: tolerance: a text or a number expected"),
         ("jobs = 1.5\n", "satcheck.toml:1: jobs: must be a whole number, at least 0 (--no"),
         ("jobs = 'x'\n", "satcheck.toml:1: jobs: must be a whole number, at least 0 (--no"),
-        ("depth-width = 1\n", "depth-width: must be a number, more than 0, less than 1 (--no"),
+        ("width = 1\n", "width: must be a number, more than 0, less than 1 (--no"),
         ("clearance = '2 miles'\n", "satcheck.toml:1: clearance: "),
         ("rules = [['a']]\n", "satcheck.toml:1: rules: a text or a number expected"),
         ("[each]\njobs = 1\n", "satcheck.toml:1: each: no such option"),
@@ -149,7 +149,7 @@ def test_show_says_where_options_come_from(folder: Path) -> None:
         ("jobs = \n", "satcheck.toml: not readable TOML"),
     ],
 )
-@pytest.mark.parametrize("command", [(), ("each",)])
+@pytest.mark.parametrize("command", [(), ("batch",)])
 def test_a_wrong_config_is_refused(
     folder: Path, text: str, told: str, command: tuple[str, ...]
 ) -> None:
@@ -180,7 +180,7 @@ def test_config_and_no_config_contradict_each_other(folder: Path) -> None:
 def test_help_needs_no_sound_config(folder: Path) -> None:
     config(folder, "wrong")
     assert satcheck("--help", cwd=folder).code == 0
-    assert satcheck("each", "--help", cwd=folder).code == 0
+    assert satcheck("batch", "--help", cwd=folder).code == 0
     assert satcheck("schema", cwd=folder).code == 0
 
 
@@ -189,10 +189,10 @@ def test_the_schema_knows_every_option() -> None:
     assert document["properties"].keys() == options_of_commands().keys()
     sound: list[dict[str, Any]] = [
         {"tolerance": 0.5}, {"tolerance": "0.5 mm"}, {"rules": "a"}, {"rules": ["a"]},
-        {"no-cache": True}, {"jobs": 0}, {"fail-on": "note"}, {"depth-width": 0.5},
+        {"no-timings": True}, {"jobs": 0}, {"fail-on": "note"}, {"width": 0.5},
     ]  # fmt: skip
     wrong: list[dict[str, Any]] = [
-        {"tolerance": -1}, {"fail_on": "note"}, {"no-cache": 1}, {"jobs": -1}, {"depth-width": 1},
+        {"tolerance": -1}, {"fail_on": "note"}, {"no-timings": 1}, {"jobs": -1}, {"width": 1},
     ]  # fmt: skip
     check = Draft202012Validator(document)
     assert [values for values in sound if not check.is_valid(values)] == []
@@ -200,8 +200,8 @@ def test_the_schema_knows_every_option() -> None:
 
 
 def test_ci_formats_name_the_config_file(folder: Path) -> None:
-    config(folder, "no-cache = true\n")
-    line = "Options of satcheck.toml: no-cache = true"
+    config(folder, "no-timings = true\n")
+    line = "Options of satcheck.toml: no-timings = true"
     sarif = json.loads(satcheck(*PUSHED, "--format", "sarif", cwd=folder).out)
     (note,) = sarif["runs"][0]["invocations"][0]["toolConfigurationNotifications"]
     assert note["message"]["text"] == line
@@ -230,9 +230,9 @@ def test_assets_are_all_checked_after_a_change_of_the_config(folder: Path) -> No
     git("init", "-q")
     git("add", ".")
     git("commit", "-qm", "all")
-    assert "no asset changed" in satcheck("each", ".", "--changed-since", "HEAD", cwd=folder).err
+    assert "no asset changed" in satcheck("batch", ".", "--changed-since", "HEAD", cwd=folder).err
     config(folder, "jobs = 2\n")
-    ran = satcheck("each", ".", "--changed-since", "HEAD", *JSON, cwd=folder)
+    ran = satcheck("batch", ".", "--changed-since", "HEAD", *JSON, cwd=folder)
     assert "satcheck.toml changed since HEAD" in ran.err
     assert len(ran.document["assets"]) == 2
 
@@ -246,12 +246,12 @@ def test_a_project_without_the_table_costs_no_parser(folder: Path) -> None:
 
 def test_a_length_with_a_unit_matters_only_where_there_is_a_pair(folder: Path) -> None:
     config(folder, 'fail-on = "error"\nclearance = "2mm"\n')
-    assert satcheck("each", ".", cwd=folder).code == 0
+    assert satcheck("batch", ".", cwd=folder).code == 0
     told = "satcheck.toml:2: clearance 2mm: no units are declared"
     scene = '[[bodies]]\nid = "{0}"\nmesh = "{1}"\n'
     pair = [scene.format(*names) for names in zip("ab", PUSHED, strict=True)]
     config(folder, "".join(['schema = "satcheck.scene/1"\n', *pair]), "pair.toml")
-    for files in (PUSHED, ("each", "pair.toml")):
+    for files in (PUSHED, ("batch", "pair.toml")):
         ran = satcheck(*files, cwd=folder)
         assert (ran.code, told in ran.err) == (2, True), ran.err
     given = satcheck(*PUSHED, "--clearance", "3mm", cwd=folder)
@@ -266,8 +266,9 @@ def test_a_length_with_a_unit_matters_only_where_there_is_a_pair(folder: Path) -
         'output = "report.json"',
         "exit-zero = true",
         "allow-outside = true",
-        "seconds-per-file = 3600",
-        "megabytes-per-file = 65536",
+        "limit = 'seconds=3600'",
+        "limit = ['seconds=5', 'megabytes=65536']",
+        "budget = 3",
     ],
 )
 def test_a_file_that_was_merely_found_does_not_do_so(folder: Path, text: str) -> None:
@@ -281,7 +282,7 @@ def test_a_file_that_was_merely_found_does_not_do_so(folder: Path, text: str) ->
 
 
 def test_smaller_limits_of_a_file_that_was_found_count(folder: Path) -> None:
-    config(folder, "seconds-per-file = 30\nexit-zero = false\n")
+    config(folder, "limit = 'seconds=30, scene-seconds=9'\nexit-zero = false\n")
     assert satcheck(*PUSHED, cwd=folder).code == 1
 
 

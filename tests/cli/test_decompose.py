@@ -30,7 +30,7 @@ def parts(path: Path) -> dict[str, Any]:
 
 def test_a_convex_mesh_is_its_own_part(tmp_path: Path) -> None:
     output = tmp_path / "parts.obj"
-    ran = satcheck("decompose", "--format", "json", "box.obj", "--parts-out", str(output))
+    ran = satcheck("decompose", "--format", "json", "box.obj", "-o", str(output))
     assert ran.code == 0
     (body,) = ran.document["bodies"]
     assert (body["outside"], body["missing"]) == (0.0, 0.0)
@@ -43,7 +43,7 @@ def test_a_convex_mesh_is_its_own_part(tmp_path: Path) -> None:
 @pytest.mark.parametrize("suffix", [".glb", ".obj"])
 def test_a_concave_mesh_becomes_named_convex_parts(tmp_path: Path, suffix: str) -> None:
     output, places = tmp_path / f"parts{suffix}", private_cache(tmp_path)
-    ran = satcheck("decompose", "--format", "json", CONCAVE, "--parts-out", str(output), env=places)
+    ran = satcheck("decompose", "--format", "json", CONCAVE, "-o", str(output), env=places)
     assert ran.code == 0
     (body,) = ran.document["bodies"]
     names = [part["name"] for part in body["parts"]]
@@ -70,7 +70,7 @@ def test_a_concave_mesh_becomes_named_convex_parts(tmp_path: Path, suffix: str) 
 
 def test_an_stl_file_holds_all_parts(tmp_path: Path) -> None:
     output, places = tmp_path / "parts.stl", private_cache(tmp_path)
-    arguments = ("decompose", "--format", "json", CONCAVE, "box.obj", "--parts-out", str(output))
+    arguments = ("decompose", "--format", "json", CONCAVE, "box.obj", "-o", str(output))
     ran = satcheck(*arguments, env=places)
     triangles = sum(part["triangles"] for body in ran.document["bodies"] for part in body["parts"])
     assert len(trimesh.load_mesh(output).faces) == triangles
@@ -78,7 +78,7 @@ def test_an_stl_file_holds_all_parts(tmp_path: Path) -> None:
 
 def test_each_node_of_a_file_is_a_body_where_the_file_places_it(tmp_path: Path) -> None:
     output = tmp_path / "parts.glb"
-    arguments = ("decompose", "--threshold", "0.5", "gripper.glb", "--parts-out", str(output))
+    arguments = ("decompose", "--threshold", "0.5", "gripper.glb", "-o", str(output))
     ran = satcheck(*arguments, env=private_cache(tmp_path))
     assert ran.code == 0
     assert "\n4 bodies, " in ran.out
@@ -95,7 +95,7 @@ def test_each_node_of_a_file_is_a_body_where_the_file_places_it(tmp_path: Path) 
 
 def test_a_glb_file_is_in_metres_where_the_unit_is_known(tmp_path: Path) -> None:
     output = tmp_path / "parts.glb"
-    assert satcheck("decompose", "--units", "mm", "box.obj", "--parts-out", str(output)).code == 0
+    assert satcheck("decompose", "--units", "mm", "box.obj", "-o", str(output)).code == 0
     ran = satcheck("--units", "mm", "--format", "json", "box.obj", str(output))
     assert ran.document["findings"][0]["relation"] in ("coincident", "contains", "inside")
     (mesh,) = parts(output).values()
@@ -131,10 +131,10 @@ def test_a_coarser_threshold_gives_fewer_parts(tmp_path: Path) -> None:
     ("arguments", "words"),
     [
         ((), "give a mesh file or a scene"),
-        (("box.obj", "--parts-out", "parts.ply"), "parts are written as .glb, .obj, .stl"),
-        (("box.obj", "--parts-out", "no/such/folder/parts.obj"), "folder does not exist"),
-        (("box.obj", "--parts-out", "box.obj"), "would overwrite an input"),
-        (("cube.off", "-o", "parts.glb"), "--parts-out parts.glb writes the parts"),
+        (("box.obj", "-o", "parts.ply"), "this command writes .glb, .obj, .stl"),
+        (("box.obj", "-o", "no/such/folder/parts.obj"), "folder does not exist"),
+        (("box.obj", "-o", "box.obj"), "would overwrite an input"),
+        (("cube.off", "-o", "a.glb", "-o", "b.stl"), "a.glb is named for that"),
         (("box.obj", "--threshold", "0"), "--threshold"),
         (("box.obj", "--threshold", "1.5"), "--threshold"),
         (("gone.obj",), "gone.obj: no such file"),
@@ -150,11 +150,11 @@ def test_refusals(arguments: tuple[str, ...], words: str) -> None:
 def test_a_flat_mesh_has_no_parts_and_no_file(tmp_path: Path) -> None:
     flat, output = tmp_path / "flat.obj", tmp_path / "parts.glb"
     flat.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
-    alone = satcheck("decompose", str(flat), "--parts-out", str(output))
+    alone = satcheck("decompose", str(flat), "-o", str(output))
     assert alone.code == 2
     assert "[decomposition-flat-mesh]" in alone.err
     assert not output.exists()
-    beside = satcheck("decompose", str(flat), "box.obj", "--parts-out", str(output))
+    beside = satcheck("decompose", str(flat), "box.obj", "-o", str(output))
     assert beside.code == 3
     assert list(parts(output)) == ["box-1"]
 

@@ -1,4 +1,4 @@
-"""`satcheck each`: the assets of a folder, each a scene of its own."""
+"""`satcheck batch`: the assets of a folder, each a scene of its own."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def verdicts(ran_out: str) -> dict[str, str]:
 
 
 def test_each_asset_of_a_folder_is_its_own_scene(assets: Path) -> None:
-    ran = satcheck("each", str(assets), "--format", "json")
+    ran = satcheck("batch", str(assets), "--format", "json")
     assert ran.code == 1
     assert verdicts(ran.out) == {"gripper.glb": "fail", "box.obj": "pass"}
 
@@ -52,7 +52,7 @@ def test_each_asset_of_a_folder_is_its_own_scene(assets: Path) -> None:
 def test_an_unreadable_asset_leaves_the_others_their_answers(assets: Path) -> None:
     (assets / "broken.obj").write_text("f 1 2 3\n")
     (assets / "wrong.toml").write_text('format = "satcheck.scene/1"\nnonsense = 1\n')
-    ran = satcheck("each", str(assets), "--format", "json")
+    ran = satcheck("batch", str(assets), "--format", "json")
     assert ran.code == 2
     assert verdicts(ran.out) == {
         "gripper.glb": "fail", "box.obj": "pass", "broken.obj": "error", "wrong.toml": "error"
@@ -60,9 +60,9 @@ def test_an_unreadable_asset_leaves_the_others_their_answers(assets: Path) -> No
 
 
 def test_patterns_and_names_from_standard_input(assets: Path) -> None:
-    pattern = satcheck("each", f"{assets}/**/*.obj", "--format", "json")
+    pattern = satcheck("batch", f"{assets}/**/*.obj", "--format", "json")
     assert verdicts(pattern.out) == {"box.obj": "pass"}
-    named = satcheck("each", "-", "--format", "json", stdin=f"{assets}/gripper.glb\n")
+    named = satcheck("batch", "-", "--format", "json", stdin=f"{assets}/gripper.glb\n")
     assert verdicts(named.out) == {"gripper.glb": "fail"}
 
 
@@ -78,7 +78,7 @@ def foreign(assets: Path) -> Path:
 
 def test_files_that_no_reader_knows_block_a_pass(foreign: Path) -> None:
     names = ["chair.FBX", "source/a b.blend"]
-    ran = satcheck("each", "props", "--format", "json", cwd=foreign.parent)
+    ran = satcheck("batch", "props", "--format", "json", cwd=foreign.parent)
     assert (ran.code, verdicts(ran.out)) == (3, {"box.obj": "pass", "props": "incomplete"})
     (asset,) = (each for each in json.loads(ran.out)["assets"] if each["file"] == "props")
     issues = [issue for issue in asset["report"]["issues"] if issue["code"] == "unread-file"]
@@ -86,20 +86,22 @@ def test_files_that_no_reader_knows_block_a_pass(foreign: Path) -> None:
     assert {issue["state"] for issue in issues} == {"blocking"}
     line = "satcheck: props: no reader knows 2 files: props/chair.FBX, props/source/a b.blend\n"
     assert line in ran.err
-    assert "chair" not in satcheck("each", "props", "-q", cwd=foreign.parent).err
+    assert "chair" not in satcheck("batch", "props", "-q", cwd=foreign.parent).err
 
 
 def test_such_files_stand_in_every_format(foreign: Path) -> None:
-    table = satcheck("each", str(foreign), env={"COLUMNS": "400"})
+    table = satcheck("batch", str(foreign), env={"COLUMNS": "400"})
     assert "props/chair.FBX: files of FBX are not read" in " ".join(table.out.split())
     assert "Next:" not in table.out
-    suites = JUnitXml.fromstring(satcheck("each", str(foreign), "--format", "junit").out.encode())
+    suites = JUnitXml.fromstring(satcheck("batch", str(foreign), "--format", "junit").out.encode())
     assert sum(suite.errors for suite in suites) == 1
-    assert "chair.FBX" in satcheck("each", str(foreign), "--format", "github").out
+    assert "chair.FBX" in satcheck("batch", str(foreign), "--format", "github").out
     results = str(foreign.parent / "results.jsonl")
     assert satcheck("batch", str(foreign), "-o", results).code == 3
     assert satcheck("batch", str(foreign), "-o", results, "--resume").code == 3
-    assert "2 assets: 1 incomplete" in satcheck("report", results).out
+    assert (
+        f"1 incomplete ({foreign.as_posix()})" in satcheck("view", results, "--format", "table").out
+    )
 
 
 @pytest.mark.parametrize(
@@ -117,37 +119,37 @@ def test_such_files_stand_in_every_format(foreign: Path) -> None:
 def test_such_files_are_accepted_or_excluded(
     options: tuple[str, ...], code: int, foreign: Path
 ) -> None:
-    assert satcheck("each", str(foreign), *options).code == code
+    assert satcheck("batch", str(foreign), *options).code == code
     results = str(foreign.parent / "results.jsonl")
     assert satcheck("batch", str(foreign), "-o", results, *options).code == code
 
 
 def test_without_exclude_a_hint_says_how_to_leave_a_file_out(foreign: Path) -> None:
-    ran = satcheck("each", "props", "--format", "json", cwd=foreign.parent)
+    ran = satcheck("batch", "props", "--format", "json", cwd=foreign.parent)
     assert "--exclude chair.FBX, or accept it" in ran.out
     assert "--exclude 'a b.blend', or accept it" in ran.out
     assert "--exclude leaves out" not in ran.err
     (foreign / "box.obj").unlink()
-    nothing = satcheck("each", "props", cwd=foreign.parent)
+    nothing = satcheck("batch", "props", cwd=foreign.parent)
     assert (nothing.code, "but 2 that no reader knows, as" in nothing.err) == (2, True)
     assert "--exclude leaves out" not in nothing.err
 
 
 def test_what_is_excluded_is_counted(foreign: Path) -> None:
-    ran = satcheck("each", str(foreign), "--exclude", "source", "--exclude", "chair.*")
+    ran = satcheck("batch", str(foreign), "--exclude", "source", "--exclude", "chair.*")
     assert "satcheck: --exclude leaves out 2 files\n" in ran.err
     (foreign / "satcheck.toml").write_text('exclude = ["source", "chair.*"]\n')
-    found = satcheck("each", ".", cwd=foreign)
+    found = satcheck("batch", ".", cwd=foreign)
     assert (found.code, "satcheck.toml sets exclude" in found.err) == (0, True)
-    named = satcheck("each", str(foreign / "box.obj"), "--exclude", "box.obj")
+    named = satcheck("batch", str(foreign / "box.obj"), "--exclude", "box.obj")
     assert named.code == 0
-    nothing = satcheck("each", str(foreign), "--exclude", "box.obj")
+    nothing = satcheck("batch", str(foreign), "--exclude", "box.obj")
     assert nothing.code == 2
     assert "but 2 that no reader knows" in nothing.err
 
 
 def test_a_file_that_no_reader_knows_is_an_error_where_it_is_named(foreign: Path) -> None:
-    ran = satcheck("each", str(foreign / "chair.FBX"), "--format", "json")
+    ran = satcheck("batch", str(foreign / "chair.FBX"), "--format", "json")
     assert (ran.code, verdicts(ran.out)) == (2, {"chair.FBX": "error"})
 
 
@@ -157,7 +159,7 @@ def test_a_file_of_materials_is_no_fault_among_assets(assets: Path) -> None:
     head = '#usda 1.0\n(\n metersPerUnit = 1\n upAxis = "Z"\n)\n'
     paint = assets / "props" / "paint.usda"
     paint.write_text(f'{head}def Material "Paint" {{}}\n')
-    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    ran = satcheck("batch", str(assets / "props"), "--format", "json")
     assert (ran.code, verdicts(ran.out)) == (0, {"box.obj": "pass", "paint.usda": "pass"})
     (asset,) = (each for each in json.loads(ran.out)["assets"] if "paint" in each["file"])
     stated = {issue["code"]: issue["severity"] for issue in asset["report"]["issues"]}
@@ -165,10 +167,10 @@ def test_a_file_of_materials_is_no_fault_among_assets(assets: Path) -> None:
     assert satcheck(str(paint), str(assets / "props" / "box.obj")).code == 2
     scene = f'schema = "satcheck.scene/1"\n[[bodies]]\nid = "a"\nmesh = "{paint.name}"\n'
     (assets / "props" / "s.toml").write_text(scene)
-    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    ran = satcheck("batch", str(assets / "props"), "--format", "json")
     assert verdicts(ran.out)["s.toml"] == "error"
     paint.write_text(f'{head}def Mterial "Paint" {{ double radius = 1 }}\n')
-    ran = satcheck("each", str(assets / "props"), "--format", "json")
+    ran = satcheck("batch", str(assets / "props"), "--format", "json")
     assert verdicts(ran.out)["paint.usda"] == "error"
 
 
@@ -178,9 +180,9 @@ def test_assets_may_name_what_lies_in_the_folder_that_is_given(given: str, tmp_p
     shutil.copy(SAMPLES / "box.obj", tmp_path / "kit")
     body = '[[bodies]]\nid = "a"\nmesh = "../box.obj"\n'
     (tmp_path / "kit" / "sets" / "s.toml").write_text(f'schema = "satcheck.scene/1"\n{body}')
-    ran = satcheck("each", given, "--format", "json", stdin="kit\n", cwd=tmp_path)
+    ran = satcheck("batch", given, "--format", "json", stdin="kit\n", cwd=tmp_path)
     assert verdicts(ran.out)["s.toml"] == "pass"
-    alone = satcheck("each", "kit/sets/s.toml", "--format", "json", cwd=tmp_path)
+    alone = satcheck("batch", "kit/sets/s.toml", "--format", "json", cwd=tmp_path)
     assert verdicts(alone.out) == {"s.toml": "error"}
     batch = satcheck("batch", given, "-o", "out.jsonl", stdin="kit\n", cwd=tmp_path)
     assert batch.code == 0
@@ -196,13 +198,13 @@ def test_assets_may_name_what_lies_in_the_folder_that_is_given(given: str, tmp_p
 )
 def test_nothing_to_check_is_an_error(name: str, told: str, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
-    ran = satcheck("each", name, cwd=tmp_path)
+    ran = satcheck("batch", name, cwd=tmp_path)
     assert ran.code == 2
     assert told in ran.err
 
 
 def test_a_missing_folder_is_an_error_and_no_body(tmp_path: Path) -> None:
-    ran = satcheck("each", "nowhere", cwd=tmp_path)
+    ran = satcheck("batch", "nowhere", cwd=tmp_path)
     assert ran.code == 2
     assert ran.out.endswith("ERROR: 1 asset: 1 has errors (nowhere).\n")
     (row,) = (line.split() for line in ran.out.splitlines() if "no such file" in line)
@@ -211,13 +213,13 @@ def test_a_missing_folder_is_an_error_and_no_body(tmp_path: Path) -> None:
 
 
 def test_junit_has_a_suite_for_each_asset(assets: Path) -> None:
-    document = JUnitXml.fromstring(satcheck("each", str(assets), "--format", "junit").out.encode())
+    document = JUnitXml.fromstring(satcheck("batch", str(assets), "--format", "junit").out.encode())
     suites = {Path(suite.name).name: (suite.tests, suite.failures) for suite in document}
     assert suites == {"gripper.glb": (6, 1), "box.obj": (1, 0)}
 
 
 def test_the_table_ends_with_the_verdict(assets: Path) -> None:
-    ran = satcheck("each", str(assets), env={"COLUMNS": "400"})
+    ran = satcheck("batch", str(assets), env={"COLUMNS": "400"})
     counts, last = ran.out.splitlines()[-2:]
     (failing,) = re.findall(r"satcheck (\S+) lists", last)
     assert re.fullmatch(r"FAIL: 2 assets: 1 fails( \(\S+\))?, 1 passes \(of one .*\)\.", counts)
@@ -243,7 +245,7 @@ def test_changed_since_a_revision(assets: Path) -> None:
     git(assets, "init", "-q")
     git(assets, "add", ".")
     git(assets, "commit", "-q", "-m", "first")
-    arguments = ("each", str(assets), "--changed-since", "HEAD", "--format", "json")
+    arguments = ("batch", str(assets), "--changed-since", "HEAD", "--format", "json")
     unchanged = satcheck(*arguments)
     assert (unchanged.code, verdicts(unchanged.out)) == (0, {})
     assert satcheck(*arguments[:-2]).out == ""
@@ -262,7 +264,7 @@ def test_without_a_changed_asset_there_is_a_document(form: str, assets: Path) ->
     git(assets, "commit", "-q", "-m", "first")
     output = assets / ".report"
     ran = satcheck(
-        "each", str(assets), "--changed-since", "HEAD", "--format", form, "-o", str(output)
+        "batch", str(assets), "--changed-since", "HEAD", "--format", form, "-o", str(output)
     )
     assert ran.code == 0
     text = output.read_text()
@@ -274,7 +276,7 @@ def test_without_a_changed_asset_there_is_a_document(form: str, assets: Path) ->
 
 def test_an_unknown_revision_is_an_error(assets: Path) -> None:
     git(assets, "init", "-q")
-    ran = satcheck("each", str(assets), "--changed-since", "nowhere")
+    ran = satcheck("batch", str(assets), "--changed-since", "nowhere")
     assert ran.code == 2
     assert "no revision nowhere: give a branch" in ran.err
 
@@ -282,7 +284,7 @@ def test_an_unknown_revision_is_an_error(assets: Path) -> None:
 def test_an_output_never_replaces_an_asset(assets: Path) -> None:
     mesh = assets / "props" / "box.obj"
     before = mesh.read_bytes()
-    ran = satcheck("each", str(assets), "--format", "json", "-o", str(mesh))
+    ran = satcheck("batch", str(assets), "--format", "json", "-o", str(mesh))
     assert ran.code == 2
     assert "would overwrite an input" in ran.err
     assert mesh.read_bytes() == before
@@ -290,26 +292,26 @@ def test_an_output_never_replaces_an_asset(assets: Path) -> None:
 
 def test_errors_and_the_summary_go_to_stderr(assets: Path) -> None:
     (assets / "broken.obj").write_text("f 1 2 3\n")
-    quiet = satcheck("each", "-q", str(assets))
+    quiet = satcheck("batch", "-q", str(assets))
     assert quiet.out == ""
     assert "satcheck: error: " in quiet.err
     assert "broken.obj" in quiet.err
     output = assets / "report.json"
-    told = satcheck("each", str(assets), "-o", str(output)).err
+    told = satcheck("batch", str(assets), "-o", str(output)).err
     assert told.splitlines()[-1].endswith(f"Report: {output}")
 
 
 def test_a_pattern_with_two_stars_in_a_name_is_refused(assets: Path) -> None:
-    ran = satcheck("each", "props/**.obj", cwd=assets)
+    ran = satcheck("batch", "props/**.obj", cwd=assets)
     assert ran.code == 2
     assert "write props/**/*.obj" in ran.err
-    assert satcheck("each", "props/**/*.obj", cwd=assets).code == 0
+    assert satcheck("batch", "props/**/*.obj", cwd=assets).code == 0
 
 
 @on_posix
 def test_a_pipe_is_not_read(assets: Path) -> None:
     os.mkfifo(assets / "pipe.json")
-    ran = satcheck("each", str(assets), "--format", "json")
+    ran = satcheck("batch", str(assets), "--format", "json")
     assert verdicts(ran.out)["pipe.json"] == "error"
 
 
@@ -317,7 +319,7 @@ def test_a_pipe_is_not_read(assets: Path) -> None:
 @pytest.mark.skipif(os.name == "posix" and os.geteuid() == 0, reason="root lists any folder")
 def test_a_folder_that_cannot_be_listed_is_an_error(assets: Path) -> None:
     (assets / "props").chmod(0)
-    ran = satcheck("each", str(assets))
+    ran = satcheck("batch", str(assets))
     (assets / "props").chmod(0o700)
     assert ran.code == 2
     assert "props: the folder cannot be listed: " in ran.err
@@ -326,7 +328,7 @@ def test_a_folder_that_cannot_be_listed_is_an_error(assets: Path) -> None:
 def test_a_length_without_known_units_is_an_error_of_the_asset(assets: Path) -> None:
     bodies = [f'[[bodies]]\nid = "{name}"\nmesh = "props/box.obj"\n' for name in "ab"]
     (assets / "pair.toml").write_text("".join(['schema = "satcheck.scene/1"\n', *bodies]))
-    ran = satcheck("each", str(assets), "--clearance", "1mm", "--format", "json")
+    ran = satcheck("batch", str(assets), "--clearance", "1mm", "--format", "json")
     document = json.loads(ran.out)
     issues = {Path(each["file"]).name: each["report"]["issues"] for each in document["assets"]}
     assert [issue["code"] for issue in issues["pair.toml"]] == ["bad-setting"]
@@ -336,7 +338,7 @@ def test_a_length_without_known_units_is_an_error_of_the_asset(assets: Path) -> 
 
 @on_posix
 def test_a_closed_standard_input_is_wrong_usage() -> None:
-    line = shlex.join(command("each", "-")) + " <&-"
+    line = shlex.join(command("batch", "-")) + " <&-"
     ran = subprocess.run(
         line, shell=True, capture_output=True, text=True, env=environment(), check=False
     )
@@ -348,14 +350,52 @@ def test_names_may_end_with_nul(assets: Path) -> None:
     odd = assets / "a\u2028b.obj"
     shutil.copy(SAMPLES / "box.obj", odd)
     for end in ("\0", "\n"):
-        ran = satcheck("each", "-", "--format", "json", stdin=f"{odd}{end}")
+        ran = satcheck("batch", "-", "--format", "json", stdin=f"{odd}{end}")
         assert verdicts(ran.out) == {odd.name: "pass"}
 
 
-def test_a_page_is_of_one_check(assets: Path) -> None:
-    ran = satcheck("each", str(assets), "--format", "html")
-    assert ran.code == 2
-    assert "'html' is not one of" in ran.err
+def test_a_page_is_a_gallery_of_the_worst_of_each_asset(tmp_path: Path) -> None:
+    """A rack has many findings, and a gripper one: each has one picture."""
+    for name in ("rack.3mf", "gripper.glb", "box.obj"):
+        shutil.copy(SAMPLES / name, tmp_path)
+    ran = satcheck("batch", ".", "-o", "all.html", "-o", "all.csv", cwd=tmp_path)
+    assert ran.code == 1
+    page = (tmp_path / "all.html").read_text()
+    assert page.count("data:image/png") == 2
+    assert "rack.3mf" in (tmp_path / "all.csv").read_text()
+    satcheck("batch", ".", "-o", "all.jsonl", "-o", "beside.html", cwd=tmp_path)
+    assert (tmp_path / "beside.html").read_text().count("data:image/png") == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--resume",), "--resume: name a file for the results"),
+        (("-o", "all.json", "--resume"), "--resume: name a file for the results"),
+        (("--format", "results"), "results go to one file"),
+        (("-o", "a.jsonl", "-o", "b.jsonl"), "results go to one file"),
+        (("-o", "all.png"), "this command writes .txt, .json"),
+        (("--read", "chord-tolerance=1"), "no reader of these files has this option"),
+    ],
+)
+def test_what_makes_no_sense_of_many_assets(
+    tmp_path: Path, words: tuple[str, ...], told: str
+) -> None:
+    shutil.copy(SAMPLES / "box.obj", tmp_path)
+    ran = satcheck("batch", ".", *words, cwd=tmp_path)
+    assert (ran.code, ran.out) == (2, "")
+    assert told in " ".join(ran.err.split())
+
+
+def test_what_is_not_checked_never_passes(tmp_path: Path) -> None:
+    """A finding is forgiven, and an open asset beside it is not."""
+    for name in ("rack.3mf", "box.obj"):
+        shutil.copy(SAMPLES / name, tmp_path)
+    (tmp_path / "chair.fbx").write_bytes(b"Kaydara FBX Binary")
+    ran = satcheck("batch", ".", "--exit-zero", "-o", "all.json", "-o", "all.txt", cwd=tmp_path)
+    assert ran.code == 3
+    assert satcheck("batch", ".", "-o", "all.jsonl", "--exit-zero", cwd=tmp_path).code == 3
+    assert satcheck("view", "all.json", "--exit-zero", "--format", "csv", cwd=tmp_path).code == 3
 
 
 RULES = '[[rules]]\na = "box"\nb = "box_pushed"\nallowed = true\nreason = "a press fit"\n'
@@ -365,10 +405,10 @@ def test_a_file_of_rules_is_no_asset(assets: Path) -> None:
     header = 'schema = "satcheck.scene/1"\nbodies = []\n'
     (assets / "allowed.toml").write_text(header + RULES)
     (assets / "empty.toml").write_text(header)
-    ran = satcheck("each", ".", "--format", "json", cwd=assets)
+    ran = satcheck("batch", ".", "--format", "json", cwd=assets)
     assert verdicts(ran.out) == {"gripper.glb": "fail", "box.obj": "pass", "empty.toml": "error"}
     assert "allowed.toml has only rules and is no asset: --rules allowed.toml" in ran.err
-    alone = satcheck("each", "allowed.toml", cwd=assets)
+    alone = satcheck("batch", "allowed.toml", cwd=assets)
     assert (alone.code, "no file is named" in alone.err) == (2, True)
 
 
@@ -392,8 +432,8 @@ def test_an_asset_whose_pairs_are_all_allowed_passes_and_says_so(
 ) -> None:
     overlapping(tmp_path)
     (tmp_path / "known.json").write_text('{"schema": "satcheck.baseline/1"}')
-    call = ("each", "fit.toml", "--rules", "allowed.toml", *baseline)
-    assert satcheck("each", "fit.toml", cwd=tmp_path).code == 1
+    call = ("batch", "fit.toml", "--rules", "allowed.toml", *baseline)
+    assert satcheck("batch", "fit.toml", cwd=tmp_path).code == 1
     ran = satcheck(*call, cwd=tmp_path)
     assert ran.code == 0
     assert ran.out.startswith("PASS: 1 asset: 1 passes.\nNo pair of 1 passing asset was checked: ")
@@ -411,7 +451,7 @@ def test_an_asset_that_exempts_its_pairs_in_another_way_is_incomplete(
     marked = scene.read_text().replace('.obj"', '.obj"\nstatic = true\ngroups = ["all"]')
     marked = marked.replace('.stl"', '.stl"\nstatic = true\ngroups = ["all"]')
     scene.write_text(marked.replace("[[bodies]]", f"{line}\n[[bodies]]", 1))
-    ran = satcheck("each", "fit.toml", "--rules", "allowed.toml", cwd=tmp_path)
+    ran = satcheck("batch", "fit.toml", "--rules", "allowed.toml", cwd=tmp_path)
     assert ran.code == 3
     assert "no pair was checked: 1 " in ran.out
 
@@ -426,7 +466,7 @@ def test_the_reason_of_an_incomplete_asset_comes_first(tmp_path: Path) -> None:
     )
     header = 'schema = "satcheck.scene/1"\ncheck_static = false\n'
     (tmp_path / "fit.toml").write_text(header + bodies)
-    ran = satcheck("each", "fit.toml", cwd=tmp_path)
+    ran = satcheck("batch", "fit.toml", cwd=tmp_path)
     assert ran.code == 3
     assert "  no pair was checked: 1 of static bodies\n" in ran.out
 
@@ -435,7 +475,7 @@ def test_the_proposed_check_has_the_options_that_change_its_answer(tmp_path: Pat
     shutil.copy(SAMPLES / "gripper.glb", tmp_path / "a b.glb")
     (tmp_path / "allowed.toml").write_text(RULES)
     options = ("--no-depth", "--rules=allowed.toml", "--clearance", "2mm", "--top", "3")
-    ran = satcheck("each", ".", *options, cwd=tmp_path)
+    ran = satcheck("batch", ".", *options, cwd=tmp_path)
     (line,) = re.findall(r"Next: satcheck (.*) lists its pairs", ran.out)
     words = shlex.split(line)
     assert words == ["a b.glb", "--no-depth", "--rules", "allowed.toml", "--clearance", "2mm"]
@@ -445,8 +485,10 @@ def test_the_proposed_check_has_the_options_that_change_its_answer(tmp_path: Pat
 @needs("step")
 def test_the_proposed_check_leaves_out_what_it_would_refuse(tmp_path: Path) -> None:
     shutil.copy(SAMPLES / "gripper.glb", tmp_path)
-    options = ("--scene-seconds", "99", "--scene-megabytes", "3000", "--read", "chord-tolerance=1")
-    ran = satcheck("each", ".", *options, cwd=tmp_path)
+    scene = 'schema = "satcheck.scene/1"\n[[bodies]]\nid = "a"\nmesh = "gripper.glb"\n'
+    (tmp_path / "s.toml").write_text(scene)  # it may place a STEP file
+    options = ("--limit", "scene-seconds=99,scene-megabytes=3000", "--read", "chord-tolerance=1")
+    ran = satcheck("batch", ".", *options, cwd=tmp_path)
     assert ran.out.endswith("Next: satcheck gripper.glb lists its pairs.\n")
 
 
@@ -465,9 +507,9 @@ def test_a_native_fault_takes_no_other_asset_down(
     names = ("a.obj", f"{word}.obj", "z.obj")
     for name in names:
         shutil.copy(SAMPLES / "box.obj", tmp_path / name)
-    limits = ("--scene-seconds", "3", "--scene-megabytes", "1024")
+    limits = ("--limit", "scene-seconds=3,scene-megabytes=1024")
     options = ("-j", "1", "--format", "json", *limits)
-    ran = satcheck("each", ".", *options, cwd=tmp_path, env={"PYTHONPATH": str(PLANTED)})
+    ran = satcheck("batch", ".", *options, cwd=tmp_path, env={"PYTHONPATH": str(PLANTED)})
     assert ran.code == 3
     assert verdicts(ran.out) == {"a.obj": "pass", f"{word}.obj": "incomplete", "z.obj": "pass"}
     lost = ran.document["assets"][1]["report"]
@@ -476,7 +518,7 @@ def test_a_native_fault_takes_no_other_asset_down(
 
 
 def test_a_report_in_json_has_times_and_sums_where_they_are_wanted(assets: Path) -> None:
-    given = ("each", str(assets), "--format", "json")
+    given = ("batch", str(assets), "--format", "json")
     text_of = {timed: satcheck(*given, *timed).out for timed in ((), ("--no-timings",))}
     has_times = {timed: '"microseconds"' in out for timed, out in text_of.items()}
     assert has_times == {(): True, ("--no-timings",): False}
@@ -486,6 +528,6 @@ def test_a_report_in_json_has_times_and_sums_where_they_are_wanted(assets: Path)
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
 def test_assets_of_odd_names_come_back_from_their_process(assets: Path) -> None:
     (assets / "props" / "box.obj").rename(assets / "props" / os.fsdecode(b"b\xff.obj"))
-    ran = satcheck("each", str(assets), "--format", "json")
+    ran = satcheck("batch", str(assets), "--format", "json")
     assert ran.code == 1
     assert verdicts(ran.out) == {"gripper.glb": "fail", os.fsdecode(b"b\xff.obj"): "pass"}

@@ -87,7 +87,7 @@ def test_view_writes_the_same_model(tmp_path: Path) -> None:
     report, glb = tmp_path / "report.json", tmp_path / "later.glb"
     model(tmp_path / "out.glb", *PUSHED)
     satcheck("--contacts", *PUSHED, "-o", str(report))
-    assert satcheck("view", str(report), "--glb", str(glb)).code == 0
+    assert satcheck("view", str(report), "-o", str(glb)).code == 0
     assert glb.read_bytes() == (tmp_path / "out.glb").read_bytes()
 
 

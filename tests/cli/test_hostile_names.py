@@ -186,8 +186,8 @@ def test_each_and_verify_and_view(folder: Path) -> None:
     certified = satcheck("--certificate", "-o", "report.json", "scene.json", cwd=folder)
     assert_shown(certified.out + certified.err)
     for command in (
-        ["each", "files"],
-        ["each", "--format", "github", "files"],
+        ["batch", "files"],
+        ["batch", "--format", "github", "files"],
         ["verify", "report.json"],
         ["view", "report.json", "-o", "page.html"],
         ["baseline", "write", "baseline.json", "report.json"],
@@ -202,7 +202,7 @@ def test_each_and_verify_and_view(folder: Path) -> None:
 def test_parts_of_bodies_are_one_file(folder: Path) -> None:
     """Whatever the bodies are called: names never become paths, nor statements of the file."""
     before = _all_files(folder)
-    ran = satcheck("decompose", "scene.json", "--parts-out", "parts.obj", cwd=folder)
+    ran = satcheck("decompose", "scene.json", "-o", "parts.obj", cwd=folder)
     assert_shown(ran.out + ran.err)
     assert _all_files(folder) - before == {"parts.obj"}
     lines = (folder / "parts.obj").read_text("utf-8").splitlines()
@@ -210,12 +210,12 @@ def test_parts_of_bodies_are_one_file(folder: Path) -> None:
     assert sum(line.startswith("v ") for line in lines) == 8 * len(NAMES)
 
 
-@pytest.mark.parametrize("name", ["out.toml", "out.json"])
+@pytest.mark.parametrize("name", ["out.toml", "out.scene.json"])
 def test_a_scene_that_is_written_has_the_same_names(
     folder: Path, tmp_path: Path, name: str
 ) -> None:
     shutil.copytree(folder / "files", tmp_path / "files")
-    ran = satcheck("resolve", *INPUTS["files"][1:], "--scene-out", name, cwd=tmp_path)
+    ran = satcheck("resolve", *INPUTS["files"][1:], "-o", name, cwd=tmp_path)
     assert_shown(ran.out + ran.err)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["files", name]
     text = (tmp_path / name).read_text("utf-8")

@@ -16,6 +16,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import click
 import pytest
 from jsonschema import Draft202012Validator
 
@@ -144,7 +145,7 @@ def test_assets_that_are_done_have_their_report(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
     boxes(tmp_path, "a.obj", "b.obj", "hang.obj", "later.obj")
-    run = start("each", "a.obj", "b.obj", "hang.obj", "later.obj", "-j", "1")
+    run = start("batch", "a.obj", "b.obj", "hang.obj", "later.obj", "-j", "1")
     run.wait_for_answers()
     code, out, err = run.interrupted()
     assert code == 130
@@ -158,7 +159,7 @@ def test_a_report_of_assets_that_are_done_is_no_pass(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
     boxes(tmp_path, "a.obj", "hang.obj")
-    run = start("each", "a.obj", "hang.obj", "-o", "report.json")
+    run = start("batch", "a.obj", "hang.obj", "-o", "report.json")
     run.wait_for_answers()
     code, out, err = run.interrupted()
     assert (code, out) == (130, "")
@@ -174,7 +175,7 @@ def test_without_an_asset_that_is_done_there_is_no_report(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
     boxes(tmp_path, "hang.obj")
-    run = start("each", "hang.obj", "-o", "report.json")
+    run = start("batch", "hang.obj", "-o", "report.json")
     assert until(run.begun.exists)
     assert run.interrupted() == (130, "", "satcheck: interrupted\n")
     assert not (tmp_path / "report.json").exists()
@@ -186,7 +187,7 @@ def test_scenes_that_are_done_are_kept(start: Callable[..., Started], tmp_path: 
     run.wait_for_answers()
     code, _, err = run.interrupted()
     assert code == 130
-    assert "1 of 2 scenes are recorded in results.jsonl.part" in err
+    assert "1 of 2 assets are recorded in results.jsonl.part" in err
     (line,) = (tmp_path / "results.jsonl.part").read_text().splitlines()
     assert json.loads(line)["files"] == ["a.obj"]
     boxes(tmp_path, "b.obj")
@@ -202,7 +203,7 @@ def test_a_second_one_ends_what_is_still_being_written(
     boxes(tmp_path, "a.obj", "hang.obj")
     reading, writing = os.pipe()
     fill(writing)
-    run = start("each", "a.obj", "hang.obj", "-j", "1", stdout=writing)
+    run = start("batch", "a.obj", "hang.obj", "-j", "1", stdout=writing)
     run.wait_for_answers()
     run.interrupt()
     assert run.process.stderr is not None
@@ -222,8 +223,8 @@ def test_where_it_is_ignored_it_stays_ignored(
     def ignore() -> None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
-    options = ("--scene-seconds", "1", "-j", "1")
-    run = start("each", "a.obj", "hang.obj", *options, preexec_fn=ignore)
+    options = ("--limit", "scene-seconds=1", "-j", "1")
+    run = start("batch", "a.obj", "hang.obj", *options, preexec_fn=ignore)
     assert until(run.begun.exists)
     code, out, err = run.interrupted()
     assert (code, err) == (3, "")
@@ -240,3 +241,14 @@ def test_while_the_command_is_still_imported(monkeypatch: pytest.MonkeyPatch) ->
     with pytest.raises(SystemExit) as stop:
         cli.main()
     assert stop.value.code == 130
+
+
+def test_an_end_of_file_in_the_code_is_no_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
+    """click reports both in the same way."""
+    from satcheck.cli import entry
+
+    def ended() -> object:
+        raise click.Abort from EOFError("the file is cut off")
+
+    monkeypatch.setattr(entry, "_call", ended)
+    assert entry._run() == 2

@@ -48,7 +48,7 @@ def without_threads(*arguments: str) -> tuple[int, str]:
 @pytest.mark.parametrize(
     "arguments",
     [
-        ("--depth", "--depth-width", "0.5", "--no-timings", "--format", "json", *CONCAVE),
+        ("--depth", "--width", "0.5", "--no-timings", "--format", "json", *CONCAVE),
         ("resolve", "--format", "json", "box.obj", "box_pushed.stl", "rod.stl"),
     ],
 )

@@ -168,7 +168,7 @@ def test_what_each_rung_sees() -> None:
     """Hulls of bodies with findings, and their parts where these are given."""
     scene = load_scene([str(SAMPLES / name) for name in ("l_bracket.obj", "peg_in_arm.ply")])
     report = check(scene)
-    parts = parts_of(report, scene, cache=False)
+    parts = parts_of(report, scene)
     data = picture_data(report, scene, parts)
     assert set(data["hulls"]) == {0, 1}
     hull = triangles(data, data["hulls"][0])

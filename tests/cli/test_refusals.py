@@ -26,7 +26,7 @@ from tests.cli.process import (
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        ([], "two or more mesh files"),
+        (["--depth"], "two or more mesh files"),
         (["box.obj"], "one body alone"),
         (["gone.obj"], "gone.obj: no such file"),
         (["--format", "yaml", *PUSHED], "yaml"),
@@ -39,7 +39,6 @@ from tests.cli.process import (
         (["box.obj", "."], "."),
         (["gone.json"], "gone.json"),
         (["-o", "no/such/folder/report.json", *PUSHED], "folder does not exist"),
-        (["each", "--path", "poses.csv", "arm.urdf"], "No such option '--path'"),
         (["batch", "--path", "poses.csv", "arm.urdf"], "No such option '--path'"),
     ],
 )
@@ -54,10 +53,10 @@ def test_an_option_raises_the_limit_that_refuses_a_file(tmp_path: Path) -> None:
     file = tmp_path / "large.obj"
     file.write_bytes((SAMPLES / "box.obj").read_bytes() + b"#" * (1 << 20))
     options = ("--exit-zero", "--format", "json", PUSHED[1], str(file))
-    refused = satcheck("--megabytes-per-file", "1", *options)
+    refused = satcheck("--limit", "megabytes=1", *options)
     assert refused.code == 2
-    assert "raise it with --megabytes-per-file" in refused.err
-    read = satcheck("--megabytes-per-file", "8", *options)
+    assert "raise it with --limit megabytes=N" in refused.err
+    read = satcheck("--limit", "megabytes=8", *options)
     assert read.code == 0
     assert read.document["settings"]["megabytes_per_file"] == 8
 
@@ -182,7 +181,7 @@ def test_a_name_that_is_too_long_is_no_internal_error(tmp_path: Path, name: str)
     assert "[cannot-write]" in done.err
 
 
-@pytest.mark.parametrize("before", [(), ("each",), ("axes",), ("--package",)])
+@pytest.mark.parametrize("before", [(), ("batch",), ("axes",), ("--package",)])
 def test_a_path_that_is_too_long_is_no_internal_error(before: tuple[str, ...]) -> None:
     name = f"a={'x' * 300}" if before == ("--package",) else f"{'x' * 300}.obj"
     done = satcheck(*before, name, "box.obj")

@@ -50,7 +50,8 @@ def batch(folder: Path, names: str, output: str, *options: str) -> Path:
 
 
 def report(folder: Path, *arguments: str) -> Ran:
-    return satcheck("report", *arguments, cwd=folder)
+    given = () if {"-o", "--format"} & set(arguments) else ("--format", "table")
+    return satcheck("view", *arguments, *given, cwd=folder)
 
 
 def test_a_line_follows_its_schema(folder: Path) -> None:
@@ -81,7 +82,7 @@ def test_the_exit_code_is_that_of_each(names: str, code: int, folder: Path) -> N
 def test_every_format_is_that_of_each(form: str, folder: Path) -> None:
     scenes = [f"{name}.toml" for name in ["a", "b", "broken", "c"]]
     batch(folder, "a b broken c", "all.jsonl")
-    expected = satcheck("each", *scenes, "--depth", "--format", form, cwd=folder)
+    expected = satcheck("batch", *scenes, "--depth", "--format", form, cwd=folder)
     found = report(folder, "all.jsonl", "--format", form)
     assert found.code == expected.code
     assert comparable(found.out, form) == comparable(expected.out, form)
@@ -146,9 +147,10 @@ def test_a_scene_of_the_manifest_without_a_result_is_no_pass(folder: Path) -> No
 
 
 def test_a_file_of_another_kind_is_an_error(folder: Path) -> None:
-    ran = report(folder, "box.obj")
+    shutil.copy(folder / "box.obj", folder / "box.jsonl")
+    ran = report(folder, "box.jsonl")
     assert ran.code == 2
-    assert "error: box.obj:1: no result of a batch [bad-result]" in ran.out
+    assert "error: box.jsonl:1: no result of a batch [bad-result]" in ran.out
 
 
 def test_a_missing_file_is_an_error(folder: Path) -> None:

@@ -51,7 +51,7 @@ def test_a_scene_without_an_input_is_not_written(tmp_path: Path) -> None:
     shutil.copy(SAMPLES / "box.obj", tmp_path)
     output = tmp_path / "moved.toml"
     paths = [str(tmp_path / name) for name in ("box.obj", "lost.obj")]
-    ran = satcheck("resolve", *paths, "--scene-out", str(output))
+    ran = satcheck("resolve", *paths, "-o", str(output))
     assert ran.code == 2
     assert "lost could not be read, and a scene file cannot state it" in ran.err
     assert not output.exists()
@@ -85,31 +85,31 @@ def test_a_pair_that_is_left_is_named_as_it_is(tmp_path: Path) -> None:
 
 
 def test_what_is_written_passes_a_check(tmp_path: Path) -> None:
-    scene, moved = scene_of_boxes(tmp_path, 0, 0.7, 1.4, units="mm"), str(tmp_path / "moved.json")
+    scene, moved = scene_of_boxes(tmp_path, 0, 0.7, 1.4, units="mm"), str(tmp_path / "moved.toml")
     assert satcheck("--no-depth", scene).code == 1
-    ran = satcheck("resolve", scene, "--scene-out", moved, "--clearance", "10um")
+    ran = satcheck("resolve", scene, "-o", moved, "--clearance", "10um")
     assert ran.code == 0, ran.err
     assert f"{moved}, checked again: 3 bodies, 3 pairs" in ran.out
     assert satcheck("--no-depth", "--clearance", "10um", moved).code == 0
 
 
 def test_the_document_follows_its_schema(tmp_path: Path) -> None:
-    output = tmp_path / "moved.json"
+    output = tmp_path / "moved.toml"
     ran = satcheck("resolve", *(str(SAMPLES / name) for name in PUSHED), "--format", "json")
     assert ran.code == 0, ran.err
     Draft202012Validator(SCHEMA).validate(ran.document)
     assert ran.document["summary"]["total_motion"] == 1.0
     assert [move["translation"] for move in ran.document["moves"]] == [[-0.5, 0, 0], [0.5, 0, 0]]
     scene = scene_of_boxes(tmp_path, 0, 0.5)
-    written = satcheck("resolve", scene, "--scene-out", str(output), "--format", "json")
+    written = satcheck("resolve", scene, "-o", str(output), "--format", "json")
     Draft202012Validator(SCHEMA).validate(written.document)
     assert written.document["output"] == str(output)
 
 
 def test_the_same_scene_gives_the_same_bytes(tmp_path: Path) -> None:
-    scene, output = scene_of_boxes(tmp_path, 0, 0.3, 0.8, 1.1), tmp_path / "moved.json"
+    scene, output = scene_of_boxes(tmp_path, 0, 0.3, 0.8, 1.1), tmp_path / "moved.toml"
     seen = set()
-    arguments = ("resolve", scene, "--scene-out", str(output), "--format", "json")
+    arguments = ("resolve", scene, "-o", str(output), "--format", "json")
     for jobs in ("1", "3"):
         ran = satcheck(*arguments, "--jobs", jobs, env={"PYTHONHASHSEED": jobs})
         seen.add((ran.out, output.read_bytes()))
@@ -148,12 +148,12 @@ def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
         (("box.obj",), "one body alone"),
         (("missing.json",), "no such file"),
         ((*PUSHED, "--pin", "boks"), "no body is called 'boks'"),
-        ((*PUSHED, "--scene-out", "moved.obj"), ".json"),
-        ((*PUSHED, "workcell.json", "--scene-out", "moved.json"), "or files without joints"),
+        ((*PUSHED, "-o", "moved.obj"), ".scene.json, .txt, .json"),
+        ((*PUSHED, "workcell.json", "-o", "moved.toml"), "or files without joints"),
         ((*PUSHED, "--max-motion", "1mm"), "no units"),
-        (("arm.urdf", "arm.srdf", "--scene-out", "moved.toml"), "links of robots are not moved"),
-        (("workcell.json", "--scene-out", "workcell.json"), "overwrite an input"),
-        (("workcell.json", "--scene-out", "nowhere/moved.json"), "does not exist"),
+        (("arm.urdf", "arm.srdf", "-o", "moved.toml"), "links of robots are not moved"),
+        (("cell.toml", "-o", "cell.toml"), "overwrite an input"),
+        (("workcell.json", "-o", "nowhere/moved.toml"), "does not exist"),
     ],
 )
 def test_wrong_usage(arguments: tuple[str, ...], said: str) -> None:
@@ -184,7 +184,7 @@ rules = [
 ]
 motion = [{bodies = "b", translation = [5, 0, 0]}]
 """)
-    arguments = ("resolve", "scene.toml", "--scene-out", "elsewhere/moved.toml", "--allow-outside")
+    arguments = ("resolve", "scene.toml", "-o", "elsewhere/moved.toml", "--allow-outside")
     ran = satcheck(*arguments, cwd=tmp_path)
     assert ran.code == 2, ran.err  # a body is unreadable, as in the source
     before, after = (tomllib.loads(path.read_text()) for path in (scene, moved))
@@ -199,8 +199,8 @@ def test_what_a_new_scene_cannot_state_is_refused(tmp_path: Path) -> None:
     """Without the file that is missing the new scene would pass."""
     for name in PUSHED:
         shutil.copy(SAMPLES / name, tmp_path)
-    moved = tmp_path / "moved.json"
-    ran = satcheck("resolve", *PUSHED, "gone.obj", "--scene-out", str(moved), cwd=tmp_path)
+    moved = tmp_path / "moved.toml"
+    ran = satcheck("resolve", *PUSHED, "gone.obj", "-o", str(moved), cwd=tmp_path)
     assert ran.code == 2
     assert "gone could not be read" in " ".join(ran.err.split())
     assert not moved.exists()
@@ -233,7 +233,7 @@ def test_mesh_files_become_a_scene_in_toml(tmp_path: Path) -> None:
     for name in PUSHED:
         shutil.copy(SAMPLES / name, tmp_path)
     moved = tmp_path / "moved.toml"
-    ran = satcheck("resolve", *(str(tmp_path / name) for name in PUSHED), "--scene-out", str(moved))
+    ran = satcheck("resolve", *(str(tmp_path / name) for name in PUSHED), "-o", str(moved))
     assert ran.code == 0, ran.err
     document = tomllib.loads(moved.read_text())
     assert document["schema"] == "satcheck.scene/1"
@@ -243,12 +243,12 @@ def test_mesh_files_become_a_scene_in_toml(tmp_path: Path) -> None:
 
 def test_a_scene_that_could_not_be_read_is_not_written(tmp_path: Path) -> None:
     meshes = [str(SAMPLES / name) for name in PUSHED]
-    moved = tmp_path / "moved.json"
-    ran = satcheck("resolve", *meshes, "--scene-out", str(moved))
+    moved = tmp_path / "moved.toml"
+    ran = satcheck("resolve", *meshes, "-o", str(moved))
     assert ran.code == 2
     assert "write it into a folder that contains the meshes" in " ".join(ran.err.split())
     assert not moved.exists()
-    ran = satcheck("resolve", *meshes, "--scene-out", str(moved), "--allow-outside")
+    ran = satcheck("resolve", *meshes, "-o", str(moved), "--allow-outside")
     assert ran.code == 0, ran.err
     assert "give --allow-outside" in ran.err
     assert satcheck("--no-depth", "--allow-outside", str(moved)).code == 0
@@ -271,10 +271,11 @@ def test_the_links_of_a_robot_are_said_to_stay(tmp_path: Path) -> None:
 
 
 def test_the_report_goes_where_that_of_any_command_goes(tmp_path: Path) -> None:
-    report, moved = tmp_path / "report.json", tmp_path / "moved.json"
+    report, moved = tmp_path / "report.json", tmp_path / "moved.toml"
     scene = scene_of_boxes(tmp_path, 0, 0.5)
-    ran = satcheck("resolve", scene, "--scene-out", str(moved), "-o", str(report))
+    ran = satcheck("resolve", scene, "-o", str(moved), "-o", str(report))
     assert (ran.code, ran.out) == (0, ""), ran.err
+    assert ran.err.endswith(f"Report: {report}\n")
     document = json.loads(report.read_text(encoding="utf-8"))
     Draft202012Validator(SCHEMA).validate(document)
     assert document["output"] == str(moved)
@@ -284,9 +285,8 @@ def test_the_report_goes_where_that_of_any_command_goes(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("-o", "moved.toml"), "--scene-out moved.toml writes the moved scene"),
-        (("-o", "x.json", "--scene-out", "x.json"), "--scene-out and -o name the same file"),
-        (("--scene-out", "box.obj"), "--scene-out box.obj would overwrite an input"),
+        (("-o", "x.json", "-o", "y.json"), "x.json is named for that"),
+        (("-o", "moved.toml", "-o", "moved.scene.json"), "moved.toml is named for that"),
     ],
 )
 def test_outputs_that_make_no_sense(arguments: tuple[str, ...], said: str) -> None:
@@ -299,13 +299,13 @@ def test_outputs_that_make_no_sense(arguments: tuple[str, ...], said: str) -> No
 def test_the_parts_of_a_usd_file_become_a_scene(tmp_path: Path) -> None:
     source, output = tmp_path / "scene.usda", tmp_path / "moved.toml"
     source.write_text(stage(cube("A"), cube("B", at(0.75))))
-    ran = satcheck("resolve", str(source), "--scene-out", str(output))
+    ran = satcheck("resolve", str(source), "-o", str(output))
     assert ran.code == 0, ran.err
     assert "checked again: 2 bodies, 1 pair: 1 touching" in ran.out
     assert satcheck(str(output)).code == 0
-    refused = satcheck("resolve", str(source), "--scene-out", str(tmp_path / "moved.usda"))
+    refused = satcheck("resolve", str(source), "-o", str(tmp_path / "moved.usda"))
     assert refused.code == 2
-    assert "is written as a .toml or .json file" in " ".join(refused.err.split())
+    assert "this command writes .toml, .scene.json" in " ".join(refused.err.split())
 
 
 def test_the_nodes_of_a_gltf_file_become_a_scene(tmp_path: Path) -> None:
@@ -314,7 +314,7 @@ def test_the_nodes_of_a_gltf_file_become_a_scene(tmp_path: Path) -> None:
     document["nodes"] = [{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "scale": [2, 2, 2]}]
     document["scenes"] = [{"nodes": [0, 1]}]
     source.write_bytes(glb(document))
-    ran = satcheck("resolve", str(source), "--scene-out", str(output))
+    ran = satcheck("resolve", str(source), "-o", str(output))
     assert ran.code == 0, ran.err
     assert "checked again: 2 bodies, 1 pair: 1 touching" in ran.out
     assert satcheck(str(output)).code == 0

@@ -88,7 +88,7 @@ COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
     "boxes": (("--accuracy", "aabb", "workcell.json"), "report"),
     "resolve": (("resolve", *PUSHED), "resolution"),
     "suggest": (("suggest", "cell.toml"), "suggestions"),
-    "tradeoff": (("tradeoff", "--repeat", "1", "--budget", "2", *PUSHED), "tradeoff"),
+    "tradeoff": (("tradeoff", "--limit", "run-seconds=2", *PUSHED), "tradeoff"),
 }
 
 

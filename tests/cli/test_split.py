@@ -51,7 +51,7 @@ def test_objects_of_obj_are_bodies_where_the_file_is_alone(tmp_path: Path) -> No
     together = satcheck("--format", "json", "two.obj", "far.obj", cwd=tmp_path)
     assert [body["id"] for body in together.document["bodies"]] == ["two", "far"]
     assert together.code == 0
-    assert satcheck("each", "two.obj", "far.obj", cwd=tmp_path).code == 1
+    assert satcheck("batch", "two.obj", "far.obj", cwd=tmp_path).code == 1
 
 
 def test_units_of_a_file_are_those_of_lengths() -> None:

@@ -29,12 +29,12 @@ def test_output_file(tmp_path: Path, name: str, start: str) -> None:
     assert name in ran.err
 
 
-@pytest.mark.parametrize("more", [(), ("--tolerance", "0")])
-def test_a_name_that_no_report_has_is_refused(tmp_path: Path, more: tuple[str, ...]) -> None:
-    page = tmp_path / "report.svg"
-    ran = satcheck(*more, "-o", str(page), *PUSHED)
+@pytest.mark.parametrize("ending", ["svg", "xlsx", "jsno"])
+def test_a_name_that_no_report_has_is_refused(tmp_path: Path, ending: str) -> None:
+    page = tmp_path / f"report.{ending}"
+    ran = satcheck("-o", str(page), *PUSHED)
     assert ran.code == 2
-    assert "report.svg: this command writes table, json" in ran.err
+    assert f"report.{ending}: this command writes .txt, .json" in ran.err
     assert not page.exists()
     assert satcheck("--format", "table", "-o", str(page), *PUSHED).code == 1
     assert page.read_text(encoding="utf-8").startswith("A    B  ")
@@ -118,6 +118,15 @@ def test_a_closed_standard_output_is_no_crash() -> None:
     )
     assert done.returncode == 1
     assert b"Traceback" not in done.stderr
+
+
+@on_posix
+def test_a_document_that_a_program_waits_for_is_not_lost_in_silence() -> None:
+    line = " ".join(f"'{word}'" for word in command("--format", "json", *PUSHED)) + " >&-"
+    done = subprocess.run(
+        ["/bin/sh", "-c", line], cwd=SAMPLES, env=environment(), capture_output=True, check=False
+    )
+    assert (done.returncode, b"[cannot-write]" in done.stderr) == (2, True)
 
 
 def test_what_others_print_stays_out_of_the_document(tmp_path: Path) -> None:

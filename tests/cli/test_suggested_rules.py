@@ -285,6 +285,6 @@ def test_a_scene_is_resolved_beside_its_rules(tmp_path: Path) -> None:
     given = toml_scene(tmp_path)
     rule = '[[rules]]\na = "plain"\nb = "two words"\nallowed = true\nreason = "meant"\n'
     (tmp_path / "rules.toml").write_text(f'schema = "satcheck.scene/1"\nbodies = []\n{rule}')
-    ran = satcheck("resolve", *given, "rules.toml", "--scene-out", "moved.toml", cwd=tmp_path)
+    ran = satcheck("resolve", *given, "rules.toml", "-o", "moved.toml", cwd=tmp_path)
     assert ran.code == 0, ran.err
     assert satcheck("moved.toml", cwd=tmp_path).code == 0

@@ -15,7 +15,7 @@ from matplotlib.image import imread
 from satcheck.cli import plotting
 from satcheck.cli.commands import tradeoff
 from satcheck.cli.commands.schema import text
-from satcheck.cli.formats.plot_style import DARK
+from satcheck.cli.formats.plot_style import LIGHT
 from satcheck.cli.formats.tradeoff_plot import WIDTH
 from tests.cli.process import PUSHED, satcheck
 
@@ -24,18 +24,20 @@ RUNGS = ("aabb", "obb", "hull", "parts", "exact", "boolean")
 
 
 def test_the_document_follows_its_schema() -> None:
-    ran = satcheck("tradeoff", *PUSHED, "--format", "json", "--repeat", "2")
+    ran = satcheck("tradeoff", *PUSHED, "--format", "json")
     assert ran.code == 0, ran.err
     Draft202012Validator(SCHEMA).validate(ran.document)
     rungs = ran.document["rungs"]
     assert list(dict.fromkeys(row["rung"] for row in rungs)) == list(RUNGS)
-    assert {row["cold"]["runs"] for row in rungs} == {2}
+    assert {row["cold"]["runs"] for row in rungs} == {5}
 
 
 def test_a_spent_budget_is_a_document_too_and_exits_with_three(tmp_path: Path) -> None:
     plot = tmp_path / "plot.svg"
     out = tmp_path / "report.json"
-    ran = satcheck("tradeoff", *PUSHED, "--budget", "1e-9", "--plot", str(plot), "-o", str(out))
+    ran = satcheck(
+        "tradeoff", *PUSHED, "--limit", "run-seconds=1e-9", "--plot", str(plot), "-o", str(out)
+    )
     assert ran.code == 3, ran.err
     document = json.loads(out.read_text(encoding="utf-8"))
     Draft202012Validator(SCHEMA).validate(document)
@@ -47,7 +49,7 @@ def test_a_spent_budget_is_a_document_too_and_exits_with_three(tmp_path: Path) -
 
 def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
     plot = tmp_path / "plot.svg"
-    ran = satcheck("tradeoff", *PUSHED, "--repeat", "1", "--plot", str(plot))
+    ran = satcheck("tradeoff", *PUSHED, "--plot", str(plot))
     assert ran.code == 0, ran.err
     for said in (
         *RUNGS,
@@ -63,13 +65,13 @@ def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
         assert said in drawn
 
 
-def test_a_plot_is_an_image_on_dark_paper_if_asked(tmp_path: Path) -> None:
+def test_a_plot_is_an_image(tmp_path: Path) -> None:
     plot = tmp_path / "plot.png"
-    ran = satcheck("tradeoff", *PUSHED, "--budget", "1e-9", "--plot", str(plot), "--dark")
+    ran = satcheck("tradeoff", *PUSHED, "--limit", "run-seconds=1e-9", "--plot", str(plot))
     assert ran.code == 3, ran.err
     image = imread(plot)
     assert image.shape[1] == 2 * WIDTH
-    assert to_hex(image[0, 0]) == DARK.paper
+    assert to_hex(image[0, 0]) == LIGHT.paper
 
 
 def test_without_matplotlib_nothing_runs_and_the_way_to_get_it_is_told(
@@ -93,7 +95,6 @@ def test_the_schema_is_printed() -> None:
         (("box.obj",), "one body alone"),
         (("box.obj", "missing.obj"), "no such file"),
         (("box.obj", "cube.off", "--plot", "plot.jpg"), "drawn as .svg, .png or .pdf"),
-        (("box.obj", "cube.off", "--repeat", "0"), "--repeat"),
         (("box.obj", "cube.off", "--format", "json", "-o", "cube.off"), "overwrite an input"),
     ],
 )

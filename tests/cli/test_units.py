@@ -93,11 +93,10 @@ def test_units_say_what_the_files_do_not(tmp_path: Path) -> None:
 def test_other_commands_refuse_and_take_units(command: str, tmp_path: Path) -> None:
     (tmp_path / "a.glb").write_bytes(glb(cube_at(0)))
     (tmp_path / "b.stl").write_bytes(files.binary_stl(cube_at(0.5)))
-    few = {"resolve": (), "tradeoff": ("--repeat", "1")}[command]
-    refused = satcheck(command, "a.glb", "b.stl", *few, cwd=tmp_path)
+    refused = satcheck(command, "a.glb", "b.stl", cwd=tmp_path)
     assert refused.code == 2
     assert "State the unit: --units" in refused.err
-    ran = satcheck(command, "a.glb", "b.stl", "--units", "m", *few, cwd=tmp_path)
+    ran = satcheck(command, "a.glb", "b.stl", "--units", "m", cwd=tmp_path)
     assert ran.code == 0, ran.err
 
 
@@ -116,12 +115,12 @@ def test_what_resolve_writes_is_in_the_same_units(tmp_path: Path) -> None:
     (tmp_path / "c.stl").write_bytes(files.binary_stl(cube_at(160, 100)))
     given = ("a.glb", "b.3mf", "c.stl", "--units", "cm")
     assert satcheck(*given, cwd=tmp_path).code == 1
-    ran = satcheck("resolve", *given, "--scene-out", "moved.json", cwd=tmp_path)
+    ran = satcheck("resolve", *given, "-o", "moved.scene.json", cwd=tmp_path)
     assert ran.code == 0, ran.err
-    scene = json.loads((tmp_path / "moved.json").read_text())
+    scene = json.loads((tmp_path / "moved.scene.json").read_text())
     assert scene["units"] == "mm"
     assert [body.get("units") for body in scene["bodies"]] == [None, None, "cm"]
-    ran = satcheck(*JSON, "moved.json", cwd=tmp_path)
+    ran = satcheck(*JSON, "moved.scene.json", cwd=tmp_path)
     assert ran.code == 0
     sizes = [
         body["unit_scale"] for body in ran.document["bodies"] if body["unit_scale"] is not None

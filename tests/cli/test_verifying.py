@@ -152,7 +152,7 @@ def test_a_report_without_certificates_gets_one_line(tmp_path: Path) -> None:
 
 def test_a_report_of_each_is_refused_with_the_command_that_has_certificates(tmp_path: Path) -> None:
     path = tmp_path / "report.json"
-    satcheck("each", "-o", str(path), *PUSHED)
+    satcheck("batch", "-o", str(path), *PUSHED)
     ran = satcheck("verify", str(path))
     assert (ran.code, ran.out) == (2, "")
     assert "the reports of several assets, and certificates need the check of one" in ran.err

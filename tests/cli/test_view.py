@@ -23,7 +23,7 @@ def test_the_page_is_that_of_the_check(folder: Path, scene: tuple[str, ...]) -> 
     satcheck(*scene, "-o", "direct.html", cwd=folder)
     satcheck("--contacts", *scene, "-o", "report.json", cwd=folder)
     ran = satcheck("view", "report.json", "-o", "later.html", cwd=folder)
-    assert (ran.code, ran.out, ran.err) == (0, "", "")
+    assert (ran.code, ran.out, ran.err) == (0, "", "Report: later.html\n")
     assert (folder / "later.html").read_text() == (folder / "direct.html").read_text()
 
 
@@ -46,7 +46,7 @@ def test_without_a_display_the_page_is_named(folder: Path) -> None:
 
 def test_the_page_goes_to_standard_output(folder: Path) -> None:
     satcheck(*PUSHED, "-o", "report.json", cwd=folder)
-    ran = satcheck("view", "report.json", "-o", "-", cwd=folder)
+    ran = satcheck("view", "report.json", "--format", "html", "-o", "-", cwd=folder)
     assert (ran.code, ran.err) == (0, "")
     assert page_data(ran.out)["findings"]
 
@@ -73,10 +73,37 @@ def test_a_missing_file_leaves_its_findings_as_text(folder: Path) -> None:
 
 
 def test_one_asset_of_many(folder: Path) -> None:
-    satcheck("each", "rack.3mf", "box.obj", "-o", "report.json", cwd=folder)
-    assert satcheck("view", "report.json", "-o", "out.html", cwd=folder).code == 2
+    satcheck("batch", "rack.3mf", "box.obj", "-o", "report.json", cwd=folder)
     ran = satcheck("view", "report.json", "--asset", "rack.3mf", "-o", "out.html", cwd=folder)
     assert ran.code == 0
+    assert page_data((folder / "out.html").read_text())["findings"]
+    wrong = satcheck("view", "report.json", "--asset", "rack.3m", "-o", "out.html", cwd=folder)
+    assert (wrong.code, "did you mean 'rack.3mf'" in wrong.err) == (2, True)
+
+
+def test_of_many_assets_the_worst_opens_and_a_page_is_a_gallery(folder: Path) -> None:
+    satcheck("batch", "rack.3mf", "box.obj", "-o", "report.json", "-o", "all.jsonl", cwd=folder)
+    env = {"DISPLAY": "", "WAYLAND_DISPLAY": ""}
+    for stored in ("report.json", "all.jsonl"):
+        opened = satcheck("view", stored, cwd=folder, env=env)
+        assert opened.code == 0
+        assert "rack.3mf is the worst of 2 assets" in opened.err
+        page = Path(opened.out.strip())
+        assert page_data(page.read_text())["findings"]
+        shutil.rmtree(page.parent)
+        files = ("-o", "all.html", "-o", "worst.png", "-o", "all.xml")
+        assert satcheck("view", stored, *files, cwd=folder).code == 1
+        assert "data:image/png" in (folder / "all.html").read_text()
+        assert (folder / "worst.png").read_bytes().startswith(b"\x89PNG")
+        assert (folder / "all.xml").read_text().count("<testsuite ") == 2
+    assert satcheck("view", "report.json", "--format", "table", cwd=folder).out.startswith("\u256d")
+
+
+def test_a_report_is_told_in_other_formats_with_the_code_of_its_check(folder: Path) -> None:
+    satcheck(*PUSHED, "-o", "report.json", cwd=folder)
+    ran = satcheck("view", "report.json", "--format", "csv", cwd=folder)
+    assert (ran.code, ran.out) == (1, satcheck(*PUSHED, "--format", "csv", cwd=folder).out)
+    assert satcheck("view", "report.json", "--format", "csv", "--exit-zero", cwd=folder).code == 0
 
 
 @pytest.mark.parametrize("text", ["{}", "[]", "not JSON", '{"schema": "satcheck.samples/1"}'])
@@ -90,4 +117,4 @@ def test_what_is_no_report_is_refused(folder: Path, text: str) -> None:
 
 def test_other_endings_are_refused(folder: Path) -> None:
     satcheck(*PUSHED, "-o", "report.json", cwd=folder)
-    assert satcheck("view", "report.json", "-o", "out.txt", cwd=folder).code == 2
+    assert satcheck("view", "report.json", "-o", "out.xlsx", cwd=folder).code == 2

@@ -80,7 +80,7 @@ def test_a_wrong_scene_leaves_the_others_their_answers(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "more", [("--certificate", "--format", "json"), ("--explain",), ("--format", "html")]
+    "more", [("--certificate", "--format", "json"), ("--explain",), ("--format", "png")]
 )
 def test_what_is_about_one_world_is_refused(folder: Path, more: tuple[str, ...]) -> None:
     ran = satcheck("apart.toml", "overlap.toml", *more, cwd=folder)
@@ -88,12 +88,18 @@ def test_what_is_about_one_world_is_refused(folder: Path, more: tuple[str, ...])
     assert "--merge" in ran.err
 
 
+def test_merge_that_merges_nothing_is_told(folder: Path) -> None:
+    assert "--merge has no effect" in satcheck("apart.toml", "--merge", cwd=folder).err
+    merged = satcheck("apart.toml", "overlap.toml", "--merge", cwd=folder)
+    assert "no effect" not in merged.err
+
+
 @pytest.mark.parametrize("command", ["resolve", "suggest", "tradeoff"])
 def test_other_commands_take_one_world(folder: Path, command: str) -> None:
     ran = satcheck(command, "apart.toml", "overlap.toml", cwd=folder)
     assert ran.code == 2
     assert "apart.toml and overlap.toml are scenes" in ran.err
-    pair = ("--pair", "left", "right", "--budget", "1") if command == "tradeoff" else ()
+    pair = ("--pair", "left", "right", "--limit", "run-seconds=1") if command == "tradeoff" else ()
     assert satcheck(command, "apart.toml", "overlap.toml", "--merge", *pair, cwd=folder).code != 2
 
 
@@ -108,9 +114,9 @@ def test_rules_apply_to_mesh_files(folder: Path) -> None:
 def test_rules_apply_to_each_asset_and_are_no_asset(folder: Path) -> None:
     rule = '[[rules]]\na = "left"\nb = "right"\nmax_depth = "2mm"\n'
     (folder / "rules.toml").write_text(f'schema = "satcheck.scene/1"\nunits = "mm"\n{rule}')
-    without = satcheck("each", ".", cwd=folder)
+    without = satcheck("batch", ".", cwd=folder)
     assert (without.code, "rules.toml has only rules" in without.err) == (1, True)
-    ran = satcheck("each", ".", "--rules", "rules.toml", *JSON, cwd=folder)
+    ran = satcheck("batch", ".", "--rules", "rules.toml", *JSON, cwd=folder)
     assert ran.code == 0, ran.err
     assert len(ran.document["assets"]) == 4
     assert ran.document["issues"] == []  # two of the four assets use it
@@ -118,11 +124,13 @@ def test_rules_apply_to_each_asset_and_are_no_asset(folder: Path) -> None:
 
 
 def test_a_rule_that_no_asset_needs_is_told_once(folder: Path) -> None:
-    ran = satcheck("each", "apart.toml", "overlap.toml", "--rules", "rules.toml", *JSON, cwd=folder)
+    ran = satcheck(
+        "batch", "apart.toml", "overlap.toml", "--rules", "rules.toml", *JSON, cwd=folder
+    )
     (issue,) = ran.document["issues"]
     assert (issue["code"], issue["severity"]) == ("unused-rule", "warning")
     assert issue["message"].startswith("rules.toml:1: ")
-    table = satcheck("each", "apart.toml", "--rules", "rules.toml", cwd=folder)
+    table = satcheck("batch", "apart.toml", "--rules", "rules.toml", cwd=folder)
     assert "rules.toml:1: the rule selects no pair" in table.out
 
 
@@ -136,7 +144,7 @@ def test_a_rule_that_no_asset_needs_is_told_once(folder: Path) -> None:
         ('schema = "satcheck.scene/9"\n', "satcheck.scene/9"),
     ],
 )
-@pytest.mark.parametrize("given", [PUSHED, ("each", "box.obj")])
+@pytest.mark.parametrize("given", [PUSHED, ("batch", "box.obj")])
 def test_a_wrong_file_of_rules(folder: Path, text: str, told: str, given: tuple[str, ...]) -> None:
     (folder / "rules.toml").write_text(text)
     ran = satcheck(*given, "--rules", "rules.toml", cwd=folder)

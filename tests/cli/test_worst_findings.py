@@ -39,7 +39,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def ask(folder: Path, *arguments: str) -> Ran:
-    return satcheck("report", "all.jsonl", *arguments, cwd=folder)
+    return satcheck("view", "all.jsonl", *arguments, cwd=folder)
 
 
 class Page(HTMLParser):
@@ -133,7 +133,7 @@ def test_names_of_pictures_stay_in_their_folder(name: str) -> None:
 
 def test_a_scene_without_findings_has_a_page(folder: Path) -> None:
     satcheck("batch", "box.obj", "-o", "one.jsonl", cwd=folder)
-    ran = satcheck("report", "one.jsonl", "--format", "html", cwd=folder)
+    ran = satcheck("view", "one.jsonl", "--format", "html", cwd=folder)
     assert ran.code == 0
     assert "There is none." in Page(ran.out).text
     assert json.loads((folder / "one.jsonl").read_text())["verdict"] == "pass"

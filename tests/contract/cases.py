@@ -18,7 +18,7 @@ DOCS = HERE.parent.parent / "docs"
 OUT = "{out}"
 # For every call: no option comes from a file, no reader is stopped because a machine is busy, and
 # the answer is JSON on standard output.
-PLAIN = ("--no-config", "-j", "1", "--seconds-per-file", "600")
+PLAIN = ("--no-config", "-j", "1", "--limit", "seconds=600")
 JSON = ("--format", "json")
 
 Arguments = tuple[str, ...]
@@ -171,7 +171,7 @@ def other_commands() -> list[Call]:
         ("workcell.json", "--depth"),
     ]
     return [
-        Call("each", ("each", *check("."))),
+        Call("each", ("batch", *check("."))),
         Call(
             "batch",
             ("batch", *PLAIN, "cell.toml", "workcell.json", "crossed_edges.toml", "-o", results),
@@ -284,7 +284,7 @@ def data_scenes() -> list[Call]:
         on_data(*panda, folder="scenes/panda"),
         on_data(*panda, "--sample", "40", folder="scenes/panda"),
         Call(
-            "each support", ("each", *check("--rules", "stands.toml", "*.json")), DATA / "support"
+            "each support", ("batch", *check("--rules", "stands.toml", "*.json")), DATA / "support"
         ),
         # One call a format, since one process then reads all its files.
         *(each(f"formats/{name}", f"features/{name}") for name in FORMATS),
@@ -309,7 +309,7 @@ FORMATS = ("gltf", "ifc", "mjcf", "sdf", "step", "usd")
 
 def each(*folders: str) -> Call:
     """Each file of the folders as a scene of its own."""
-    return Call(f"each {' '.join(folders)}", ("each", *check("--depth", *folders)), DATA)
+    return Call(f"each {' '.join(folders)}", ("batch", *check("--depth", *folders)), DATA)
 
 
 GROUPS = {

@@ -100,7 +100,7 @@ def answers(category: str) -> list[tuple[Pair, Finding]]:
 def ask(pair: Pair) -> Finding:
     """Every figure: the clearance is more than any gap, and a power of two that scales along."""
     reach = math.ldexp(1.0, math.frexp(pair.largest)[1] + 3)
-    settings = Settings(tolerance=0.0, clearance=reach, depth=True, depth_budget=0.05, jobs=1)
+    settings = Settings(tolerance=0.0, clearance=reach, depth=True, budget=0.05, jobs=1)
     return check_meshes(pair.a, pair.b, settings=settings)
 
 

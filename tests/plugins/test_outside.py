@@ -50,7 +50,7 @@ def test_its_files_are_meshes(tmp_path: Path, env: dict[str, str]) -> None:
 
 
 def test_a_folder_is_checked_for_its_files(tmp_path: Path, env: dict[str, str]) -> None:
-    ran = satcheck("each", ".", "--format", "json", cwd=tmp_path, env=env)
+    ran = satcheck("batch", ".", "--format", "json", cwd=tmp_path, env=env)
     assert [asset["file"] for asset in ran.document["assets"]] == [
         "a.tetra",
         "b.tetra",
@@ -235,7 +235,7 @@ def test_its_robots_are_assets_of_a_folder(tmp_path: Path) -> None:
     links = box.format("a") + '<link name="c"/>' + box.format("b")
     for name in ("a", "b"):
         (tmp_path / f"{name}.rbx").write_text(f'<rbx name="r">{links}{joint}</rbx>')
-    ran = satcheck("each", ".", "--format", "json", cwd=tmp_path, env=env)
+    ran = satcheck("batch", ".", "--format", "json", cwd=tmp_path, env=env)
     assert [asset["verdict"] for asset in ran.document["assets"]] == ["fail", "fail"]
 
 
@@ -245,7 +245,7 @@ def test_a_reader_of_robots_that_fails_loses_its_file_alone(tmp_path: Path) -> N
     (tmp_path / "robots" / "robots.py").write_text(f"{failing}def fail(file):\n    {{}}[1]\n")
     (tmp_path / "a.rbx").write_text('<rbx name="r"><link name="a"/></rbx>')
     shutil.copy(SAMPLES / "box.obj", tmp_path)
-    ran = satcheck("each", ".", "--format", "json", cwd=tmp_path, env=env)
+    ran = satcheck("batch", ".", "--format", "json", cwd=tmp_path, env=env)
     verdicts = {asset["file"]: asset["verdict"] for asset in ran.document["assets"]}
     assert verdicts == {"a.rbx": "error", "box.obj": "pass"}
     assert "the RBX reader failed: KeyError" in ran.out

@@ -9,6 +9,7 @@ from fractions import Fraction
 
 import pytest
 
+from satcheck.report.baseline import HELD
 from satcheck.report.judge import EXACT_WIDTH, disputed, judged
 from satcheck.report.report import OVERLAPS, RELATIONS, Finding, Issue, PairCounts
 from satcheck.report.request import LIMITS, Request
@@ -137,13 +138,14 @@ def test_random_reports_have_the_summary_that_follows(seed: int) -> None:
     unmet = [
         a for a in answers if a.answer != "open" and a.severity in RANKS[RANKS.index(fail_on) :]
     ]
-    is_open = left_open or issues or any(f.undecided for f in findings)
+    is_open = left_open or issues
+    is_open = is_open or any(f.undecided and f.baseline_state != "accepted" for f in findings)
     is_open = is_open or any(a.answer == "open" for a in answers)
     nothing = total == allowed and not alone
-    fail = unmet or any(f.baseline_state != "unchanged" for f in decided_graves)
+    fail = unmet or any(f.baseline_state not in HELD for f in decided_graves)
     assert made.verdict == ("fail" if fail else "incomplete" if is_open or nothing else "pass")
     assert made.limits_undecided == sum(f.undecided == "limit" for f in findings)
-    assert made.accepted == sum(f.baseline_state == "unchanged" for f in findings)
+    assert made.accepted == sum(f.baseline_state in HELD for f in findings)
 
 
 def _judged_at_random(dice: random.Random) -> Finding:
@@ -156,6 +158,6 @@ def _judged_at_random(dice: random.Random) -> Finding:
         severity=dice.choice(RANKS),
         relation=relation,
         undecided=undecided,
-        baseline_state=dice.choice((None, "unchanged", "new")),
+        baseline_state=dice.choice((None, *HELD, "new")),
         plan=(),
     )

@@ -67,6 +67,7 @@ FINDING_KEYS = [
     "motion",
     "certificate",
     "reason",
+    "reason_code",
     "plan",
     "baseline_state",
 ]

@@ -192,7 +192,7 @@ def test_numbers_that_are_named_again_and_again(tmp_path, monkeypatch):
     path = write(tmp_path, "b.glb", content)
     (found,) = issues(path, megabytes_per_file=256)
     assert found[0] in ("reader-out-of-memory", "reader-timeout")
-    assert "--megabytes-per-file" in found[1] or "--seconds-per-file" in found[1]
+    assert "--limit megabytes" in found[1] or "--limit seconds" in found[1]
 
 
 def test_a_buffer_that_is_named_again_and_again(tmp_path, monkeypatch):

@@ -142,7 +142,7 @@ def test_a_file_that_states_no_size_is_read_up_to_the_limit(tmp_path, monkeypatc
     assert issues(write(tmp_path, "a.obj", files.obj())) == []
     (found,) = issues(write(tmp_path, "b.obj", b"#" * (5 << 20)), megabytes_per_file=16)
     assert found[0] == "too-large"
-    assert "--megabytes-per-file" in found[1]
+    assert "--limit megabytes" in found[1]
 
 
 def test_a_buffer_elsewhere_that_the_user_allows(tmp_path, monkeypatch):

@@ -290,7 +290,7 @@ def test_limits_of_the_child_hold_for_nodes_too(tmp_path, monkeypatch):
     path.write_bytes(files.threemf())
     (issue,) = load_scene([path], seconds_per_file=0.25).issues
     assert issue.code == "reader-timeout"
-    assert "0.25 s (raise it with --seconds-per-file)" in issue.message
+    assert "0.25 s (raise it with --limit seconds=N)" in issue.message
 
 
 def test_more_bodies_than_the_limit_are_refused(tmp_path, monkeypatch):

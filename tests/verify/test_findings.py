@@ -41,7 +41,7 @@ def finding_of(folder: Path, a: Mesh, b: Mesh, **settings: Any) -> tuple[Checked
 
 def test_a_way_out_may_end_with_two_open_surfaces_in_contact(tmp_path: Path) -> None:
     plate = placed(upright(), 0.0, 0.0, 0.75)
-    found, _ = finding_of(tmp_path, channel(), plate, depth_width=1e-6)
+    found, _ = finding_of(tmp_path, channel(), plate, width=1e-6)
     assert (found.outcome, found.depth, found.mtv) == ("accepted", False, True), found.reason
 
 

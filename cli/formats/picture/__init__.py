@@ -19,13 +19,12 @@ def render(
     scene: Scene,
     *,
     split: bool = False,
-    cache: bool = True,
     pose: int | None = None,
 ) -> str | bytes:
     """Return the picture of a report.
 
-    scene: that the report is about. split: a page shows convex parts, too. cache: of these. pose:
-    of several that one; None: a page shows all of them, another picture the worst.
+    scene: that the report is about. split: a page shows convex parts, too. pose: of several that
+    one; None: a page shows all of them, another picture the worst.
     """
     from satcheck.cli.formats.picture.slabs import with_slabs
 
@@ -37,7 +36,7 @@ def render(
     if split and form == "html":
         from satcheck.cli.formats.picture.parts import parts_of
 
-        more["parts"] = parts_of(report, scene, cache=cache)
+        more["parts"] = parts_of(report, scene)
     return cast("str | bytes", function_of(form)(report, scene, **more))
 
 

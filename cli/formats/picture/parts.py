@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.cli.formats.picture.data import listed
 from satcheck.cli.progress import Bar
-from satcheck.decompose import Cache, DecompositionError, decompose
+from satcheck.decompose import Cache, DecompositionError, decompose, user_cache
 
 if TYPE_CHECKING:
     from satcheck.cli.formats.picture.geometry import Parts
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
 
 
-def parts_of(report: Report, scene: Scene, *, cache: bool) -> Parts:
+def parts_of(report: Report, scene: Scene) -> Parts:
     """Split as the settings of the report say. A body that cannot be split has no parts."""
     met = {id_ for finding in listed(report) for id_ in (finding.a, finding.b)}
     bodies = [body for body in scene.bodies if body.id in met]
-    store = Cache() if cache else None
+    store = user_cache()
     split: dict[int, tuple[Polytope, ...]] = {}
     with Bar("bodies", "splitting") as bar:
         for number, body in enumerate(bodies, 1):

@@ -272,7 +272,7 @@ def batch(tmp_path: Path) -> Iterator[Callable[[str], tuple[subprocess.Popen[byt
     def start(file: str) -> tuple[subprocess.Popen[bytes], str]:
         mark = f"SATCHECK_TEST={tmp_path}"
         variables = environment({"PYTHONPATH": str(PLANTED), "SATCHECK_TEST": str(tmp_path)})
-        options = ["-o", "results.jsonl", "--scene-seconds", "4"]
+        options = ["-o", "results.jsonl", "--limit", "scene-seconds=4"]
         started.append(subprocess.Popen(command("batch", file, *options), env=variables))
         return started[-1], mark
 

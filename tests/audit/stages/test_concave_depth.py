@@ -54,7 +54,7 @@ def test_the_bounds_are_the_best_of_all_stages(tmp_path, budget, offset, size):
         a = crumpled_ring(rng, 12, 5) * size + offset
         b = (crumpled_ring(rng, 5, 4) + SHIFT) * size + offset
         scene = scene_of(tmp_path, a=mesh(a, faces_of_ring(12, 5)), b=mesh(b, faces_of_ring(5, 4)))
-        (finding,) = check(scene, Settings(depth=True, depth_budget=budget)).findings
+        (finding,) = check(scene, Settings(depth=True, budget=budget)).findings
         if finding.depth_bounds is None:
             continue
         low, high = finding.depth_bounds

@@ -229,7 +229,7 @@ def test_a_ball_on_an_open_sheet_touches_it() -> None:
     found = ask(shape("ball", Sphere(0.5), moved(0.25, 0.5, 0.5)), mesh_body("floor", floor))
     assert (found.relation, found.quality) == ("touching", "exact")
     low = shape("ball", Sphere(0.5), moved(0.25, 0.5, 0.25))
-    into = ask(low, mesh_body("floor", floor), depth_budget=LITTLE)
+    into = ask(low, mesh_body("floor", floor), budget=LITTLE)
     assert (into.relation, into.severity) == ("penetrating", "error")
 
 
@@ -302,7 +302,7 @@ def test_a_fin_of_no_thickness_is_material(
     x: float, z: float, relation: str, fin: tuple[tuple[int, int, int], ...], swapped: bool
 ) -> None:
     pair = shape("ball", Sphere(0.25), moved(x, 1.0, z)), finned(*fin)
-    found = ask(*(pair[::-1] if swapped else pair), tolerance=0.0, depth_budget=LITTLE)
+    found = ask(*(pair[::-1] if swapped else pair), tolerance=0.0, budget=LITTLE)
     assert (found.relation, found.exact_relation) == (relation, relation)
     if relation == "penetrating":
         assert found.mtv_verified

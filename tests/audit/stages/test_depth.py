@@ -73,7 +73,7 @@ def test_a_failed_decomposition_is_a_warning(tmp_path):
 
 def test_a_spent_budget_leaves_a_proven_interval_and_says_so(tmp_path):
     scene = scene_of(tmp_path, a=bracket(), b=bracket())
-    finding = only(check(scene, Settings(depth_budget=1e-6)))
+    finding = only(check(scene, Settings(budget=1e-6)))
     low, high = finding.depth_bounds
     assert 0 <= low <= 2 * math.sqrt(2) <= high
     assert finding.mtv_verified
@@ -96,6 +96,6 @@ def test_a_narrower_interval_can_be_asked_for(tmp_path):
     dented[1].extend([(4, 5, 8), (5, 7, 8), (7, 6, 8), (6, 4, 8)])
     scene = scene_of(tmp_path, a=dented, b=unit_box(0.5, 0.125, 0.125))
     for width in (0.5, 0.01, 0.001):
-        low, high = only(check(scene, Settings(depth_width=width))).depth_bounds
+        low, high = only(check(scene, Settings(width=width))).depth_bounds
         assert high - low <= width * high
         assert low <= 0.5 <= high

@@ -176,7 +176,7 @@ def test_open_bodies_have_no_surface_that_is_off(tmp_path: Path) -> None:
 
 
 def test_what_the_budget_leaves_open_is_no_pass(tmp_path: Path) -> None:
-    settings = Settings(surface_tolerance=0.49 * WEDGE_THICKNESS, depth_budget=1e-6)
+    settings = Settings(surface_tolerance=0.49 * WEDGE_THICKNESS, budget=1e-6)
     a, b = write(tmp_path, a=unit_box(), b=wedge())
     report = check(load_scene([a, b]), settings)
     assert report.summary.verdict in ("fail", "incomplete")

@@ -132,7 +132,7 @@ def test_stars_agree_with_exact_crossings() -> None:
         if small:
             b = [(x / 8, y / 8) for x, y in b]
         b = [(x + about[0], y + about[1]) for x, y in b]
-        found = ask(scene(sheet_about(a, (0.0, 0.0)), sheet_about(b, about)), depth_width=0.5)
+        found = ask(scene(sheet_about(a, (0.0, 0.0)), sheet_about(b, about)), width=0.5)
         if cross(a, b):
             assert found.exact_relation == "penetrating"
         elif edges_meet(a, b):

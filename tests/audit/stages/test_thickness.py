@@ -105,7 +105,7 @@ a = "a"
 b = "b"
 max_thickness = {limit}
 """)
-    report = check(load_scene([tmp_path / "cell.toml"]))
+    report = check(load_scene([tmp_path / "cell.toml"]), Settings(depth=False))
     (found,) = report.findings
     assert (found.severity, found.depth) == (severity, None)
     assert report.rules[0].max_thickness == float(limit)

@@ -188,7 +188,7 @@ def test_a_flex_is_an_unreadable_body(tmp_path: Path) -> None:
 def test_a_body_without_a_line_is_part_of_the_report_of_a_folder(tmp_path: Path) -> None:
     cloth = '<flexcomp name="cloth" type="grid" count="3 3 1" spacing="1 1 1" dim="2" radius=".1"/>'
     write(tmp_path, model(body("b", geom("g")), body("c", cloth, pos="0 0 5")))
-    ran = satcheck("each", ".", "--format", "json", cwd=tmp_path)
+    ran = satcheck("batch", ".", "--format", "json", cwd=tmp_path)
     (asset,) = ran.document["assets"]
     assert (ran.code, asset["report"]["bodies"][1]["stated_at"]) == (2, None)
 

@@ -180,6 +180,6 @@ def test_resolve_moves_bodies_of_joints_and_says_that_these_are_not_written(tmp_
     path.write_text(
         door("bool physics:collisionEnabled = true\n").replace("(2, 0, 0)", "(0.75, 0, 0)")
     )
-    ran = satcheck("resolve", str(path), "--scene-out", str(tmp_path / "moved.toml"))
+    ran = satcheck("resolve", str(path), "-o", str(tmp_path / "moved.toml"))
     assert ran.code == 0, ran.err
     assert "moved.toml has no joints" in " ".join(ran.err.split())

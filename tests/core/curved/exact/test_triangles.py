@@ -42,7 +42,7 @@ def test_flush_on_a_concave_mesh(
     ):
         body = shape("a", primitive, turned(columns, 2.25, 0.25, z))
         for pair in ((body, bracket()), (bracket(), body)):
-            found = ask(*pair, tolerance=0.0, depth_budget=0.1)
+            found = ask(*pair, tolerance=0.0, budget=0.1)
             assert found.exact_relation == relation
             if relation == "penetrating":
                 assert found.mtv_verified
