@@ -74,7 +74,7 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
     effects = [e for e in request.if_failing if e != "thickness" or why_not_thick(pair) is None]
     if share < (1 + THICKNESS_SHARE) * settings.work:
         seconds = share / (1 + THICKNESS_SHARE) / WORK_PER_SECOND
-        settings = replace(settings, depth_budget=seconds)
+        settings = replace(settings, budget=seconds)
     by = {**request.by, **dict.fromkeys(effects, FOR_FAILURES)}
     draft.pair = replace(pair, settings=settings, request=replace(request, by=by))
     try:

@@ -81,7 +81,7 @@ def test_the_deepest_boxes_are_measured_before_the_budget_ends(
 
 def test_the_budget_is_counted_and_shared(tmp_path: Path) -> None:
     scene = brackets(tmp_path, 12)
-    small = Settings(depth_budget=0.002, jobs=1)
+    small = Settings(budget=0.002, jobs=1)
     one, other = check(scene, small), check(scene, replace(small, jobs=3))
     assert 0 < len(measured(one)) < len(overlaps(one))
     assert one.to_dict(timings=False) == other.to_dict(timings=False)

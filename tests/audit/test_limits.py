@@ -57,12 +57,12 @@ def test_what_a_rule_says_of_a_pair_comes_first(tmp_path: Path) -> None:
 
 def test_a_limit_between_the_bounds_leaves_the_pair_undecided(tmp_path: Path) -> None:
     scene = scene_of(tmp_path, a=bracket(), b=moved(bracket(), 0.3, 0.2, 0.1))
-    (wide,) = check(scene, Settings(depth_budget=1e-7)).findings
+    (wide,) = check(scene, Settings(budget=1e-7)).findings
     assert wide.depth_bounds is not None
     low, high = wide.depth_bounds
     assert low < high
     limit = (low + high) / 2
-    (finding,) = check(scene, Settings(depth_budget=1e-7, max_depth=limit)).findings
+    (finding,) = check(scene, Settings(budget=1e-7, max_depth=limit)).findings
     assert (finding.severity, finding.undecided) == ("warning", "limit")
     assert "--max-depth" in (finding.reason or "")
 

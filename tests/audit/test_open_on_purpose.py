@@ -75,7 +75,7 @@ def test_the_folder_gate_takes_the_rules_file(tmp_path: Path) -> None:
         'schema = "satcheck.scene/1"\nunits = "mm"\n'
         '[[bodies]]\nid = "pot"\nmesh = "shell.obj"\n[[bodies]]\nid = "lid"\nmesh = "part.obj"\n'
     )
-    gate = ("each", "pot.toml")
+    gate = ("batch", "pot.toml")
     assert satcheck(*gate, cwd=tmp_path).code == 3
     rules = tmp_path / "rules.toml"
     rules.write_text('[[rules]]\nbodies = "*"\nasset = "shell.obj"\nopen = true\n')

@@ -343,13 +343,13 @@ def table(folder: Path, sunk: float) -> None:
 
 
 REPORTS = {
-    "each": ("each", "table.toml", "-o", "report.json"),
+    "folder": ("batch", "table.toml", "-o", "report.json"),
     "batch": ("batch", "table.toml", "-o", "report.jsonl"),
     "check": ("table.toml", "-o", "report.json"),
 }
 
 
-@pytest.mark.parametrize("command", ["each", "batch", "check"])
+@pytest.mark.parametrize("command", ["folder", "batch", "check"])
 def test_a_leg_that_sinks_deeper_is_caught_without_any_option(command: str, tmp_path: Path) -> None:
     def gate() -> Ran:
         *arguments, report = REPORTS[command]
@@ -408,7 +408,7 @@ def shell(folder: Path, units: str = "mm") -> None:
 
 def test_an_undecided_pair_is_accepted_only_if_told_and_for_the_same_reason(tmp_path: Path) -> None:
     shell(tmp_path)
-    for gate in (("each", "pot.toml"), ("pot.toml",)):
+    for gate in (("batch", "pot.toml"), ("pot.toml",)):
         known = tmp_path / "known.json"
         known.unlink(missing_ok=True)
         satcheck(*gate, "-o", "report.json", cwd=tmp_path)

@@ -119,7 +119,7 @@ def test_poses_are_drawn_and_viewed_alike(tmp_path: Path) -> None:
     assert direct.read_text() == later.read_text()
     number = str(next(s["number"] for s in json.loads(stored.read_text())["samples"] if s["moved"]))
     image, model = tmp_path / "x.png", tmp_path / "x.glb"
-    files = ("-o", str(image), "--glb", str(model), "--allow-outside")
+    files = ("-o", str(image), "-o", str(model), "--allow-outside")
     assert satcheck("view", str(stored), "--pose", number, *files).code == 0
     assert image.read_bytes().startswith(b"\x89PNG")
     assert len(trimesh.load_scene(model).geometry) > 0

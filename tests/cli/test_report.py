@@ -1,4 +1,4 @@
-"""`satcheck report`: what the results of a batch say."""
+"""`satcheck view` of results: what the results of a batch say."""
 
 from __future__ import annotations
 

@@ -207,7 +207,7 @@ def test_a_folder_has_one_file_of_rules(tmp_path: Path) -> None:
     assert [(rule["a"], rule["b"]) for rule in rules] == [("top", f"leg.00{k}") for k in range(4)]
     assert all(0.0033 <= rule["max_depth"] <= 0.00331 for rule in rules)
     assert "in kit/stool.glb, kit/table.glb" in rules[0]["reason"]
-    checked = ("each", "kit", "--rules", "rules.toml")
+    checked = ("batch", "kit", "--rules", "rules.toml")
     assert satcheck(*checked, cwd=tmp_path).code == 0
     table(tmp_path / "kit", 0.091)
     assert satcheck(*checked, cwd=tmp_path).code == 1
@@ -233,7 +233,7 @@ def test_assets_in_several_units_have_plain_limits(tmp_path: Path) -> None:
     document = tomllib.loads((tmp_path / "rules.toml").read_text())
     assert "units" not in document
     assert [rule["a"] for rule in document["rules"]] == ["rack/tray", "top"]
-    assert satcheck("each", "kit", "--rules", "rules.toml", cwd=tmp_path).code == 0
+    assert satcheck("batch", "kit", "--rules", "rules.toml", cwd=tmp_path).code == 0
 
 
 @pytest.mark.parametrize("more", [("--format", "srdf"), ("--sample", "3")])
