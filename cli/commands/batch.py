@@ -157,6 +157,8 @@ def command(
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
     targets, results = _targets(form, outputs)
+    if (engine == "dask") != (scheduler is not None):
+        raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
     if not (inputs.paths or manifest):
         raise click.UsageError("give a folder or files: `satcheck batch .` checks this folder")
     local = tuple(name for name in inputs.paths if not is_url(name))
@@ -348,8 +350,6 @@ def _meant_by(url: str) -> list[str]:
 
 
 def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Generator[list[Answer]]]:
-    if (name == "dask") != (scheduler is not None):
-        raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
     try:
         engine = function_at(ENGINES[name])
     except ImportError:

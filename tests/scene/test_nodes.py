@@ -255,7 +255,7 @@ def test_a_shared_mesh_names_itself_in_its_one_warning(tmp_path):
     document["scenes"] = [{"nodes": [0, 1]}]
     (issue,) = scene_of(tmp_path, "a.glb", files.glb(document, buffer)).issues
     assert (issue.code, issue.body) == ("not-closed", None)
-    assert issue.message.startswith("mesh 'sheet': 1 hole")
+    assert issue.message.startswith("mesh 'sheet': open mesh (1 hole")
 
 
 def test_the_child_process_gives_the_same_nodes(tmp_path, monkeypatch):

@@ -89,7 +89,7 @@ def test_the_file_has_the_bytes_of_the_local_engine(cluster: LocalCluster, tmp_p
     far = ["--engine", "dask", "--scheduler", cluster.scheduler_address]
     for name, options in (("near", []), ("far", far)):
         ran = satcheck("batch", "*.toml", "-o", f"{name}.jsonl", *options, cwd=tmp_path)
-        assert "5 scenes" in ran.err
+        assert "5 assets" in ran.err
     assert (tmp_path / "far.jsonl").read_bytes() == (tmp_path / "near.jsonl").read_bytes()
 
 
@@ -175,7 +175,7 @@ def test_what_is_left_early_leaves_no_process(
 
 
 def test_no_scheduler_is_there() -> None:
-    ran = satcheck("batch", "a.toml", "-o", "r", "--engine", "dask", "--scheduler", "no.json")
+    ran = satcheck("batch", "a.toml", "-o", "r.jsonl", "--engine", "dask", "--scheduler", "no.json")
     assert ran.code == 2
     assert "no-scheduler" in ran.err
 

@@ -79,7 +79,7 @@ def test_a_program_reads_the_topic_and_finds_both_elements(house: Path, tmp_path
     topic = handler.topic
     assert topic.title == "IfcWall South / IfcPipeSegment Water"
     assert (topic.topic_type, topic.topic_status, topic.priority) == ("Clash", "Open", "High")
-    assert "depth" in topic.description
+    assert "to pull apart" in topic.description
     (file,) = handler.markup.header.files.file
     assert (file.filename, file.ifc_project) == ("house.ifc", PROJECT)
     (view,) = handler.viewpoints.values()
@@ -119,7 +119,7 @@ def test_pairs_of_the_same_classes_are_one_topic_with_a_view_of_each(
     archive = read_back(render(*checked(house)), tmp_path)
     (handler,) = archive.topics.values()
     assert handler.topic.title == "IfcPipeSegment / IfcWall: 2 pairs"
-    assert handler.topic.description.count("depth") == 2
+    assert handler.topic.description.count("to pull apart") == 2
     seen = [
         {each.ifc_guid for each in view.visualization_info.components.selection.component}
         for view in handler.viewpoints.values()
