@@ -96,12 +96,11 @@ def test_such_files_stand_in_every_format(foreign: Path) -> None:
     suites = JUnitXml.fromstring(satcheck("batch", str(foreign), "--format", "junit").out.encode())
     assert sum(suite.errors for suite in suites) == 1
     assert "chair.FBX" in satcheck("batch", str(foreign), "--format", "github").out
-    results = str(foreign.parent / "results.jsonl")
-    assert satcheck("batch", str(foreign), "-o", results).code == 3
-    assert satcheck("batch", str(foreign), "-o", results, "--resume").code == 3
-    assert (
-        f"1 incomplete ({foreign.as_posix()})" in satcheck("view", results, "--format", "table").out
-    )
+    into = ("batch", "props", "-o", "results.jsonl")
+    assert satcheck(*into, cwd=foreign.parent).code == 3
+    assert satcheck(*into, "--resume", cwd=foreign.parent).code == 3
+    ran = satcheck("view", "results.jsonl", "--format", "table", cwd=foreign.parent)
+    assert "1 incomplete (props)" in ran.out
 
 
 @pytest.mark.parametrize(
@@ -126,8 +125,8 @@ def test_such_files_are_accepted_or_excluded(
 
 def test_without_exclude_a_hint_says_how_to_leave_a_file_out(foreign: Path) -> None:
     ran = satcheck("batch", "props", "--format", "json", cwd=foreign.parent)
-    assert "--exclude chair.FBX, or accept it" in ran.out
-    assert "--exclude 'a b.blend', or accept it" in ran.out
+    assert "--exclude chair.FBX, or --accept unread-file:chair.FBX" in ran.out
+    assert "--exclude 'a b.blend', or --accept 'unread-file:a b.blend'" in ran.out
     assert "--exclude leaves out" not in ran.err
     (foreign / "box.obj").unlink()
     nothing = satcheck("batch", "props", cwd=foreign.parent)
