@@ -108,6 +108,13 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
     if place is None:
         return None
     _, equals, value = words[place].partition("=")
+    if (
+        words[0] == "baseline"
+        and wrong in ("-o", "--output")
+        and (file := words[place + 1 : place + 2])
+    ):
+        rest = [*words[2:place], *words[place + 2 :]]
+        return Advice("the baseline comes before the reports", _line([*words[:2], *file, *rest]))
     name = wrong.lstrip("-")
     if "--read" in known and (option := options().get(name.replace("-", "_"))) is not None:
         after = words[place + 1 :]

@@ -24,6 +24,8 @@ from satcheck.report.atomic_file import replace_file
 from satcheck.report.json import read_line
 from satcheck.report.report import Issue
 
+# The names of such files end so.
+ENDINGS = (".jsonl", ".ndjson", PART)
 BAD_RESULT = "bad-result"
 UNFINISHED = "unfinished-results"
 NO_RESULTS = "no-results"

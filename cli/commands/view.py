@@ -15,8 +15,7 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.manifest import read_manifest
-from satcheck.audit.batch.results import PART
-from satcheck.audit.batch.stored import Stored, StoredResults
+from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults
 from satcheck.audit.words import is_listed
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -43,7 +42,6 @@ from satcheck.scene.words import meant
 
 # Assets that a table lists without --top, and findings with a picture.
 TOP = 100
-_RESULTS = (".jsonl", ".ndjson", PART)
 _FORMATS = {
     "html": Format(
         "html", (".html", ".htm"), about="a 3-D view, of several assets a gallery of the worst"
@@ -139,7 +137,7 @@ def command(
         parts=parts,
         pose=pose,
     )
-    if any(path.suffix.lower() in _RESULTS for path in reports):
+    if any(path.suffix.lower() in ENDINGS for path in reports):
         expected = () if manifest is None else read_manifest(manifest)
         with StoredResults(reports, expected) as results:
             return view.assets(results, results.issues, results.least, asset)

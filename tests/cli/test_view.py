@@ -133,6 +133,16 @@ def test_what_is_no_report_is_refused(folder: Path, text: str) -> None:
     assert not (folder / "out.html").exists()
 
 
+@pytest.mark.parametrize("name", ["out.html", "out.sarif", "out.csv"])
+def test_a_report_in_another_format_is_refused_with_the_one_to_store(
+    folder: Path, name: str
+) -> None:
+    satcheck(*PUSHED, "-o", name, cwd=folder)
+    ran = satcheck("view", name, cwd=folder)
+    assert ran.code == 2
+    assert f"{name}: no JSON report: a check writes one with -o report.json" in ran.err
+
+
 def test_other_endings_are_refused(folder: Path) -> None:
     satcheck(*PUSHED, "-o", "report.json", cwd=folder)
     assert satcheck("view", "report.json", "-o", "out.xlsx", cwd=folder).code == 2
