@@ -243,6 +243,12 @@ def test_three_commands_that_the_screen_names_make_a_gate(tmp_path: Path) -> Non
     assert (third.code, "PASS: 1 asset" in third.out) == (0, True)
 
 
+def test_a_misspelt_folder_is_told_with_the_one_that_is_there(tmp_path: Path) -> None:
+    (tmp_path / "props").mkdir()
+    ran = satcheck("batch", "prop", cwd=tmp_path)
+    assert (ran.code, "no such file or folder (did you mean 'props'?)" in ran.out) == (2, True)
+
+
 def git(folder: Path, *arguments: str) -> None:
     identity = ("-c", "user.name=a", "-c", "user.email=a@b.c")
     subprocess.run(("git", *identity, *arguments), cwd=folder, check=True, capture_output=True)
