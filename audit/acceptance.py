@@ -44,7 +44,8 @@ def acceptance(text: str) -> Acceptance:
         raise SatcheckError("bad-acceptance", message)
     if code not in BLOCKING:
         hint = meant(code, BLOCKING, "; did you mean {}?") or f"; these do: {', '.join(BLOCKING)}"
-        message = f"no issue of the code {code!r} blocks a pass{hint}"
+        named = f". A name follows a code: unread-file:{text}" if "." in text else ""
+        message = f"no issue of the code {code!r} blocks a pass{hint}{named}"
         raise SatcheckError("bad-acceptance", message)
     if colon and not name:
         message = f"{text!r} names no file and no body; {code!r} alone accepts all of this code"

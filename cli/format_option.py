@@ -122,7 +122,7 @@ def form_of(
 
 def unknown_ending(known: Iterable[Format]) -> str:
     """`this command writes .txt, .json or .csv: end the name so, or give --format`."""
-    *endings, last = (each.endings[0] for each in known if each.endings)
+    *endings, last = dict.fromkeys(each.endings[0] for each in known if each.endings)
     return f"this command writes {', '.join(endings)} or {last}: end the name so, or give --format"
 
 

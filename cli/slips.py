@@ -108,6 +108,13 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
     if place is None:
         return None
     _, equals, value = words[place].partition("=")
+    if (
+        words[0] == "baseline"
+        and wrong in ("-o", "--output")
+        and (file := words[place + 1 : place + 2])
+    ):
+        rest = [*words[2:place], *words[place + 2 :]]
+        return Advice("the baseline comes before the reports", _line([*words[:2], *file, *rest]))
     name = wrong.lstrip("-")
     if "--read" in known and (option := options().get(name.replace("-", "_"))) is not None:
         after = words[place + 1 :]
@@ -132,7 +139,7 @@ def about_paths(paths: Sequence[str]) -> list[Advice]:
     advice = [Advice("did you mean", _replacing(near))] if near else []
     folders = list(filter(is_folder, bad))
     if len(folders) > 1:
-        advice += _about_folders(folders)
+        advice += _about_folders(folders, paths)
         bad = [path for path in bad if path not in folders]
     advice += [each for path in bad[:MOST_PATHS] for each in _about_path(path)]
     files = Counter(os.path.realpath(path) for path in paths if is_file(path))
@@ -246,10 +253,13 @@ def _about_folder(path: str) -> Iterator[Advice]:
             yield Advice(purpose, _replacing({path: [_all(Path(path), ending)]}))
 
 
-def _about_folders(paths: Sequence[str]) -> Iterator[Advice]:
+def _about_folders(paths: Sequence[str], given: Sequence[str]) -> Iterator[Advice]:
     """Of several: a line for all of them, as a line for one of them would fail at the next."""
     if _is_check():
-        yield Advice("to check each file in the folders by itself", _line(["batch", *sys.argv[1:]]))
+        around = {os.path.dirname(path) or "." for path in given}  # noqa: PTH120  as it was given
+        is_expanded = len(around) == 1 and len(given) > MOST_FILES  # a shell did so with `props/*`
+        words = [*around] if is_expanded else sys.argv[1:]
+        yield Advice("to check each file in the folders by itself", _line(["batch", *words]))
         return
     endings = {path: Counter(file.suffix for file in _meshes(Path(path))) for path in paths}
     if all(endings.values()):

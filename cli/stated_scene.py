@@ -133,4 +133,6 @@ def _read(
         return msgspec.convert(head, Report)
     except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
         reason = f"no JSON report of this version of satcheck: {error}"
+        if path.suffix.lower() != ".json":
+            reason = "no JSON report: a check writes one with -o report.json"
         raise SatcheckError("bad-report", reason, file=str(path)) from None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterable
+from glob import escape
 from pathlib import Path, PurePath
 
 from satcheck.scene.bodies import Scene
@@ -118,9 +119,10 @@ def foreign_scene(folder: str, files: Iterable[str]) -> Scene:
         issue(
             "unread-file",
             f"files of {_program(file)} are not read: export it to a format "
-            f"that is, --exclude {shlex.quote(PurePath(file).name)}, or accept it",
+            f"that is, --exclude {shlex.quote(name)}, or "
+            f"--accept {shlex.quote(f'unread-file:{escape(name)}')}",
             file=file,
         )
-        for file in files
+        for file, name in ((file, PurePath(file).name) for file in files)
     ]
     return Scene(name=folder, units=None, bodies=(), issues=tuple(issues))

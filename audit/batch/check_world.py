@@ -26,6 +26,7 @@ from satcheck.scene import Refused, Scene
 from satcheck.scene.foreign_formats import foreign_scene, is_foreign
 from satcheck.scene.mesh_files import KnownMeshes
 from satcheck.scene.opening import exists, is_folder
+from satcheck.scene.words import meant
 
 # Why a file that is as it should be has no body that can collide.
 _NO_BODY = "no-body"
@@ -139,9 +140,13 @@ def _without_libraries(file: str, scene: Scene) -> Scene:
 
 def _refuse_folder(name: str) -> None:
     """Only a folder that cannot be listed is among the assets, or one that does not exist."""
-    if not exists(name) and not Path(name).suffix:
-        raise SatcheckError("file-not-found", "no such file or folder", file=name)
     try:
+        if not exists(name) and not Path(name).suffix:
+            parent = Path(name).parent
+            near = meant(
+                Path(name).name, [p.name for p in parent.iterdir()] if parent.is_dir() else ()
+            )
+            raise SatcheckError("file-not-found", f"no such file or folder{near}", file=name)
         if is_folder(name):
             next(Path(name).iterdir(), None)
     except OSError as error:

@@ -24,6 +24,8 @@ from satcheck.report.atomic_file import replace_file
 from satcheck.report.json import read_line
 from satcheck.report.report import Issue
 
+# The names of such files end so.
+ENDINGS = (".jsonl", ".ndjson", PART)
 BAD_RESULT = "bad-result"
 UNFINISHED = "unfinished-results"
 NO_RESULTS = "no-results"
@@ -38,6 +40,10 @@ _VERDICTS: dict[str, AssetVerdict] = {
     DIFFERENT: "pass",
 }
 _LAST_COUNTS = "; the last file counts"  # in a report; nothing is merged then
+_NO_RESULTS = (
+    "there is no result in these files: satcheck batch writes them with -o results.jsonl, "
+    "and a check stores its report with -o report.json"
+)
 # Issues for which nothing is merged, and the codes of these errors.
 _REFUSED = {BAD_RESULT: "bad-results", UNFINISHED: UNFINISHED, DIFFERENT: "results-differ"}
 # Lines of a file that are named one by one.
@@ -137,7 +143,7 @@ class StoredResults:
             which = f"{_named(next(iter(missing)))}{_more(len(missing) - 1)}"
             yield Issue(MISSING, "warning", None, None, f"{which}: no result in these files")
         if not self._count:
-            yield Issue(NO_RESULTS, "warning", None, None, "there is no result in these files")
+            yield Issue(NO_RESULTS, "warning", None, None, _NO_RESULTS)
 
 
 def _files_of(path: Path) -> Iterator[Path]:

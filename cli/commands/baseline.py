@@ -18,10 +18,12 @@ from satcheck.audit.baseline import (
     read_baseline,
     updated,
 )
+from satcheck.audit.batch.stored import ENDINGS, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli.click_classes import HELP_NAMES, Group
-from satcheck.cli.output import Document, write_file
+from satcheck.cli.output import Document, issue_line, talk, write_file
 from satcheck.cli.stated_scene import read_report
+from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import Baseline, KnownFinding, KnownUndecided
 from satcheck.report.json import document as json_document
 from satcheck.report.report import Report
@@ -54,8 +56,14 @@ undecided_option = click.option(
 def command() -> None:
     """Known findings that do not fail a check.
 
-    REPORT is a JSON report of a check or of `satcheck batch`, with the options that the check in CI
-    has. `satcheck --baseline BASELINE ...` then fails only on findings that are new or worse.
+    REPORT is a JSON report of a check or of `satcheck batch`, or results of that (.jsonl), with the
+    options that the check in CI has. `--baseline BASELINE` then fails a check only on findings that
+    are new or worse.
+
+    \b
+      satcheck batch props -o report.json
+      satcheck baseline write baseline.json report.json
+      satcheck batch props --baseline baseline.json
     """
 
 
@@ -67,12 +75,16 @@ def command() -> None:
 @undecided_option
 def write(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -> None:
     """Write a new baseline with the failing findings of reports."""
+    if exists(file) and not any(map(exists, reports)):
+        raise click.UsageError(f"there is no {reports[0]}: the baseline comes before the reports")
     if exists(file):
         raise click.UsageError(f"{file} exists: `satcheck baseline update` changes it")
     _update(file, Baseline(), reports, reason, **accepting)
 
 
-@command.command("update", context_settings=HELP_NAMES)
+@command.command(
+    "update", context_settings=HELP_NAMES, short_help="Add findings that are new or worse."
+)
 @file_argument
 @reports_argument
 @reason_option
@@ -83,7 +95,7 @@ def update(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) 
     _update(file, read_baseline(file), reports, reason, **accepting)
 
 
-@command.command("prune", context_settings=HELP_NAMES)
+@command.command("prune", context_settings=HELP_NAMES, short_help="Remove findings that pass now.")
 @file_argument
 @reports_argument
 def prune(file: Path, reports: Sequence[Path]) -> None:
@@ -171,9 +183,22 @@ def _write(file: Path, before: Baseline, after: Baseline) -> None:
 def _named_reports(paths: Sequence[Path], file: Path) -> Iterator[tuple[str, Report]]:
     """The reports, under the names that a baseline gives to assets."""
     for path in paths:
+        if path.suffix.lower() in ENDINGS:
+            yield from _of_results(path, file)
+            continue
         document = read_report(path)
         if isinstance(document, Report):
             yield "", document
         else:
             for asset in document.assets:
                 yield asset_key(asset.file, file), asset.report
+
+
+def _of_results(path: Path, file: Path) -> Iterator[tuple[str, Report]]:
+    with StoredResults([path]) as results:
+        for issue in results.issues:
+            if issue.severity == "error":
+                raise SatcheckError(issue.code, issue.message)
+            talk(f"satcheck: {issue_line(issue)}")
+        for each in results:
+            yield asset_key(each.asset.file, file), each.asset.report

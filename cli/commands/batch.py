@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import signal
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
@@ -41,6 +42,7 @@ from satcheck.cli.worlds import (
     check_options,
     check_worlds,
     deliver_assets,
+    tell_assets,
     tell_foreign,
 )
 from satcheck.core.errors import SatcheckError
@@ -195,7 +197,7 @@ def command(
         worlds, terms, limits, partial(check, options=terms, limits=limits), results, resume
     )
     if not quiet:
-        talk(_summary(tally, results))
+        talk(_summary(tally, results, is_alone=not targets))
     if targets:
         _deliver(Path(results), delivery, allow_outside=inputs.allow_outside)
     return exit_codes.for_counts(tally.verdicts, exit_zero=exit_zero)
@@ -255,6 +257,8 @@ def _deliver(results: Path, delivery: Delivery, *, allow_outside: bool) -> None:
         seen = overview(found, stored.issues, least=stored.least, top=delivery.top)
         drawing = Drawing(allow_outside=allow_outside)
         deliver_assets(Document(), seen, stored, delivery, drawing)
+        if not delivery.quiet:
+            tell_assets(seen, delivery)
 
 
 def _changed(revision: str, worlds: Sequence[World], shared: Sequence[Path]) -> Sequence[World]:
@@ -374,7 +378,12 @@ def _verdicts(tally: Tally, but: str = "") -> str:
     return ", ".join(parts)
 
 
-def _summary(tally: Tally, output: str) -> str:
+def _summary(tally: Tally, output: str, *, is_alone: bool) -> str:
+    """is_alone: no other document shows the results."""
     kept = f" ({tally.kept:,} kept)" if tally.kept else ""
     verdicts = f": {_verdicts(tally)}{kept}" if tally.done else ""
-    return f"{counted(tally.total, 'asset')}{verdicts}. Results: {output}"
+    shows = ""
+    if is_alone and tally.verdicts["pass"] < tally.done and not is_url(output):
+        line = shlex.join(["satcheck", "view", output, "-o", "gallery.html"])
+        shows = f"\nNext: {line} shows the worst findings."
+    return f"{counted(tally.total, 'asset')}{verdicts}. Results: {output}{shows}"

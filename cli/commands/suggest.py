@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Mapping, Sequence
 from itertools import chain
 from pathlib import Path
@@ -78,8 +79,11 @@ def command(
     """
     inputs = Inputs.taken_from(options)
     if form is None:
-        ending = "" if output is None else output.suffix.lower().removeprefix(".")
-        form = ending if ending in FORMATS else FORMATS[0]
+        form = "" if output is None else output.suffix.lower().removeprefix(".")
+        form = form or FORMATS[0]
+        if form not in FORMATS:
+            known = "this command writes .toml, .json or .srdf: end the name so, or give --format"
+            raise click.UsageError(f"{output}: {known}")
     refuse_early(inputs, output)
     document = Document()
     told: set[str] = set()
@@ -107,6 +111,10 @@ def command(
         if issue.code not in told:
             talk(f"satcheck: {issue_line(issue)}")
     talk(remark(result, pairs, never=never))
+    if form == "toml" and pairs and output is not None:
+        command = ["batch"] if any(map(is_folder, inputs.paths)) else []
+        line = shlex.join(["satcheck", *command, *inputs.paths, "--rules", str(output)])
+        talk(f"Next: {line} checks with these rules.")
     if form == "srdf" and pairs:
         talk("An SRDF has one line for two links: it covers all pairs of their bodies.")
     if errors:

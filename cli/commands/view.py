@@ -15,8 +15,8 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.manifest import read_manifest
-from satcheck.audit.batch.results import PART
-from satcheck.audit.batch.stored import Stored, StoredResults
+from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults
+from satcheck.audit.words import is_listed
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import Target, format_option, targets_of
@@ -34,7 +34,7 @@ from satcheck.cli.rendering import (
 )
 from satcheck.cli.stated_scene import read_stored, stated_scene
 from satcheck.cli.worlds import INTERRUPTED, Drawing, deliver_assets, tell_assets
-from satcheck.report.assets import AssetsReport, AssetVerdict
+from satcheck.report.assets import Asset, AssetsReport, AssetVerdict
 from satcheck.report.report import NOTHING_TO_CHECK, Issue, Report
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
@@ -42,7 +42,6 @@ from satcheck.scene.words import meant
 
 # Assets that a table lists without --top, and findings with a picture.
 TOP = 100
-_RESULTS = (".jsonl", ".ndjson", PART)
 _FORMATS = {
     "html": Format(
         "html", (".html", ".htm"), about="a 3-D view, of several assets a gallery of the worst"
@@ -138,7 +137,7 @@ def command(
         parts=parts,
         pose=pose,
     )
-    if any(path.suffix.lower() in _RESULTS for path in reports):
+    if any(path.suffix.lower() in ENDINGS for path in reports):
         expected = () if manifest is None else read_manifest(manifest)
         with StoredResults(reports, expected) as results:
             return view.assets(results, results.issues, results.least, asset)
@@ -183,12 +182,8 @@ class _View(NamedTuple):
         others = tuple(target for target in self.to.targets if not _is_scene(target))
         is_page = not self.to.targets and self.drawing.folder is None
         code = exit_codes.CLEAN
-        if (alone or is_page) and len(stored):
-            worst = min((each.asset for each in stored), key=asset_rank)
-            if len(stored) > 1:
-                named = f"{worst.file} is the worst of {len(stored):,} assets"
-                talk(f"satcheck: {named}: --asset names another")
-            code = self._replace(to=replace(self.to, targets=tuple(alone))).report(worst.report)
+        if alone or is_page:
+            code = self._replace(to=replace(self.to, targets=tuple(alone)))._worst(stored, issues)
         if is_page or not others:
             return code
         to = replace(self.to, targets=others)
@@ -197,6 +192,21 @@ class _View(NamedTuple):
         deliver_assets(self.document, seen, stored, to, self.drawing, only_shown=to.top is not None)
         tell_assets(seen, to)
         return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
+
+    def _worst(self, stored: Sequence[Stored] | StoredResults, issues: tuple[Issue, ...]) -> int:
+        """Show the worst of many assets; one with a finding, if there is any, as a file that cannot
+        be read has nothing to see."""
+        if not len(stored):
+            for issue in issues:
+                talk(f"satcheck: {issue_line(issue)}")
+            return exit_codes.ERROR
+        worst = min((each.asset for each in stored), key=_rank_to_see)
+        if len(stored) > 1:
+            named = f"{worst.file} is the worst of {len(stored):,} assets"
+            if any(map(is_listed, worst.report.findings)):
+                named = f"{worst.file} has the worst finding of {len(stored):,} assets"
+            talk(f"satcheck: {named}: --asset names another")
+        return self.report(worst.report)
 
     def report(self, stated: Report | SamplesReport) -> int:
         """Show the report of one check. Pictures need its scene, which is read again."""
@@ -241,6 +251,10 @@ def _is_scene(target: Target) -> bool:
     return kind_of(target.form) == "picture" and target.form != "html"
 
 
+def _rank_to_see(asset: Asset) -> tuple[float, ...]:
+    return (not any(map(is_listed, asset.report.findings)), *asset_rank(asset))
+
+
 def _named(stored: Iterable[Stored], name: str) -> Report:
     """Return the report of an asset. click.UsageError if there is none."""
     names = []
@@ -248,7 +262,9 @@ def _named(stored: Iterable[Stored], name: str) -> Report:
         if asset.file == name:
             return asset.report
         names.append(asset.file)
-    raise click.UsageError(f"--asset: no asset is {name}{meant(name, names)}")
+    with_it = [file for file in names if name in file]
+    hint = f" (did you mean {with_it[0]!r}?)" if with_it else meant(name, names)
+    raise click.UsageError(f"--asset: no asset is {name}{hint}")
 
 
 def _show(content: bytes | str, document: Document) -> None:

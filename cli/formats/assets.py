@@ -6,8 +6,10 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from glob import escape
 from heapq import nsmallest
 from math import inf
+from pathlib import PurePath
 from typing import TYPE_CHECKING, TypeVar
 
 import click
@@ -100,7 +102,7 @@ def render(seen: Overview, page: Page) -> str:
     """Return the whole text, final newline included."""
     root = common_root([asset.file for asset in seen.shown])
     said = hidden(seen.listed - len(seen.shown), "asset") + all_begin(root)
-    said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen)]
+    said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen), *_steps_of_folders(seen)]
     lines = _table(seen.shown, root, page) if seen.shown else []
     return joined([*lines, *fitted_each(said, page)], page)
 
@@ -156,6 +158,22 @@ def _next_step(seen: Overview) -> list[str]:
         return steps + [f"Next: {_check_of(file)} says what is open." for file in unsure]
     is_written = bool(ctx.params.get("outputs"))
     return ["Next: -o worst.html shows the worst pairs."] if failing and not is_written else []
+
+
+def _steps_of_folders(seen: Overview) -> list[str]:
+    """How to allow what is meant, and to leave out what cannot be read."""
+    ctx = click.get_current_context(silent=True)
+    paths = () if ctx is None or ctx.info_name != "batch" else ctx.params["paths"]
+    if ctx is None or not paths or not all(map(is_folder, paths)):
+        return []
+    steps = []
+    if seen.named.get("fail") and not (ctx.params["rules"] or ctx.params["baseline"]):
+        line = shlex.join(["satcheck", "suggest", *paths, "-o", "rules.toml"])
+        steps.append(f"Next: {line} proposes rules for overlaps that are meant.")
+    for file in seen.named.get("error", [])[:1]:
+        name = shlex.quote(escape(PurePath(file).name))
+        steps.append(f"Next: --exclude {name} leaves out {file} until it is mended.")
+    return steps
 
 
 def _check_of(file: str) -> str:

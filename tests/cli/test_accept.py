@@ -128,6 +128,12 @@ def test_a_code_that_blocks_nothing_is_refused(robot: Path) -> None:
     assert "did you mean 'unread'" in ran.err
 
 
+def test_a_name_without_a_code_is_told_where_it_goes(robot: Path) -> None:
+    ran = satcheck("batch", "r.urdf", "--accept", "statue.fbx", cwd=robot)
+    assert ran.code == 2
+    assert "A name follows a code: unread-file:statue.fbx" in ran.err
+
+
 def test_no_name_is_no_name_of_everything(robot: Path) -> None:
     ran = satcheck("r.urdf", "--accept", "unread:", cwd=robot)
     assert ran.code == 2

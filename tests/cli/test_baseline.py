@@ -357,11 +357,7 @@ def test_a_leg_that_sinks_deeper_is_caught_without_any_option(command: str, tmp_
 
     table(tmp_path, 2.0)
     satcheck(*REPORTS[command], cwd=tmp_path)
-    report = REPORTS[command][-1]
-    if command == "batch":  # a baseline is made of reports
-        satcheck("view", report, "-o", "report.json", cwd=tmp_path)
-        report = "report.json"
-    written = satcheck("baseline", "write", "known.json", report, cwd=tmp_path)
+    written = satcheck("baseline", "write", "known.json", REPORTS[command][-1], cwd=tmp_path)
     assert (written.code, "1 added" in written.out) == (0, True)
     assert gate().code == 0
     for made in tmp_path.glob("gate_*"):
@@ -446,3 +442,34 @@ def test_other_units_are_a_reason_too_and_an_unreadable_body_is_none(tmp_path: P
     codes = {(f["a"], f["b"]): f["reason_code"] for f in findings if f["undecided"]}
     assert set(codes.values()) == {"units-unknown", None}
     assert all((code is None) == ("lost" in pair) for pair, code in codes.items())
+
+
+def test_results_of_a_batch_make_the_same_baseline_as_its_report(tmp_path: Path) -> None:
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path)
+    satcheck("batch", ".", "-o", "all.jsonl", "-o", "all.json", cwd=tmp_path)
+    for name in ("all.jsonl", "all.json"):
+        assert satcheck("baseline", "write", f"{name}.b", name, cwd=tmp_path).code == 0
+    written = (tmp_path / "all.jsonl.b").read_text()
+    assert json.loads(written)["findings"]
+    assert written == (tmp_path / "all.json.b").read_text()
+    (tmp_path / "bad.jsonl").write_text("{}\n")
+    ran = satcheck("baseline", "write", "bad.b", "bad.jsonl", cwd=tmp_path)
+    assert (ran.code, (tmp_path / "bad.b").exists()) == (2, False)
+    assert "error: bad.jsonl:1: no result of a batch" in ran.err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("r.json",), "baseline has no command r.json: it has prune, update, write"),
+        (("wirte", "b.json", "r.json"), "did you mean 'write'?"),
+        (("write", "r.json", "b.json"), "there is no b.json: the baseline comes before"),
+        (("write", "r.json", "-o", "b.json"), "\n  satcheck baseline write b.json r.json\n"),
+    ],
+)
+def test_a_slip_is_told_with_what_to_type(
+    tmp_path: Path, words: tuple[str, ...], told: str
+) -> None:
+    (tmp_path / "r.json").write_text("{}")
+    ran = satcheck("baseline", *words, cwd=tmp_path)
+    assert (ran.code, told in ran.err) == (2, True)

@@ -178,7 +178,11 @@ def test_the_last_lines_are_counts_and_a_verdict(
 
 def test_many_overlaps_ask_for_rules() -> None:
     many = [replace(THICK, b=f"block{k}") for k in range(11)]
-    assert "Next: satcheck suggest proposes rules" in shown(*many)
+    made = report(*many)
+    parts = tuple(replace(body, file="assembly.glb") for body in made.bodies)
+    made = with_messages(replace(made, bodies=parts))
+    text = render(made, PLAIN_PAGE, explain=False, timings=True)
+    assert "Next: satcheck suggest proposes rules" in text
 
 
 def test_what_hulls_cannot_prove_asks_for_accuracy() -> None:

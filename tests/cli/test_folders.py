@@ -96,11 +96,11 @@ def test_such_files_stand_in_every_format(foreign: Path) -> None:
     suites = JUnitXml.fromstring(satcheck("batch", str(foreign), "--format", "junit").out.encode())
     assert sum(suite.errors for suite in suites) == 1
     assert "chair.FBX" in satcheck("batch", str(foreign), "--format", "github").out
-    results = str(foreign.parent / "results.jsonl")
-    assert satcheck("batch", str(foreign), "-o", results).code == 3
-    assert satcheck("batch", str(foreign), "-o", results, "--resume").code == 3
-    shown = satcheck("view", results, "--format", "table").out
-    assert "INCOMPLETE: 2 assets: 1 incomplete" in shown
+    into = ("batch", "props", "-o", "results.jsonl")
+    assert satcheck(*into, cwd=foreign.parent).code == 3
+    assert satcheck(*into, "--resume", cwd=foreign.parent).code == 3
+    ran = satcheck("view", "results.jsonl", "--format", "table", cwd=foreign.parent)
+    assert "1 incomplete (props)" in ran.out
 
 
 @pytest.mark.parametrize(
@@ -125,8 +125,8 @@ def test_such_files_are_accepted_or_excluded(
 
 def test_without_exclude_a_hint_says_how_to_leave_a_file_out(foreign: Path) -> None:
     ran = satcheck("batch", "props", "--format", "json", cwd=foreign.parent)
-    assert "--exclude chair.FBX, or accept it" in ran.out
-    assert "--exclude 'a b.blend', or accept it" in ran.out
+    assert "--exclude chair.FBX, or --accept unread-file:chair.FBX" in ran.out
+    assert "--exclude 'a b.blend', or --accept 'unread-file:a b.blend'" in ran.out
     assert "--exclude leaves out" not in ran.err
     (foreign / "box.obj").unlink()
     nothing = satcheck("batch", "props", cwd=foreign.parent)
@@ -219,11 +219,34 @@ def test_junit_has_a_suite_for_each_asset(assets: Path) -> None:
 
 def test_the_table_ends_with_the_verdict(assets: Path) -> None:
     ran = satcheck("batch", str(assets), env={"COLUMNS": "400"})
-    counts, last = ran.out.splitlines()[-2:]
+    counts, last, rules = ran.out.splitlines()[-3:]
     (failing,) = re.findall(r"satcheck (\S+) lists", last)
     assert re.fullmatch(r"FAIL: 2 assets: 1 fails( \(\S+\))?, 1 passes \(of one .*\)\.", counts)
     assert last == f"Next: satcheck {failing} lists its pairs."
     assert satcheck(failing).code == 1
+    line = rules.removeprefix("Next: ").removesuffix(" proposes rules for overlaps that are meant.")
+    assert line == shlex.join(["satcheck", "suggest", str(assets), "-o", "rules.toml"])
+
+
+def test_three_commands_that_the_screen_names_make_a_gate(tmp_path: Path) -> None:
+    (tmp_path / "my props").mkdir()
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path / "my props")
+    (tmp_path / "my props/broken.glb").write_bytes(b"glTF")
+    first = satcheck("batch", "my props", cwd=tmp_path, env={"COLUMNS": "400"})
+    assert first.code == 2
+    words = "--exclude broken.glb leaves out my props/broken.glb until it is mended."
+    assert first.out.endswith(f"\nNext: {words}\n")
+    (line,) = re.findall(r"Next: satcheck (suggest .*) proposes", first.out)
+    second = satcheck(*shlex.split(line), cwd=tmp_path)
+    (line,) = re.findall(r"Next: satcheck (.*) checks with these rules", second.err)
+    third = satcheck(*shlex.split(line), "--exclude", "broken.glb", cwd=tmp_path)
+    assert (third.code, "PASS: 1 asset" in third.out) == (0, True)
+
+
+def test_a_misspelt_folder_is_told_with_the_one_that_is_there(tmp_path: Path) -> None:
+    (tmp_path / "props").mkdir()
+    ran = satcheck("batch", "prop", cwd=tmp_path)
+    assert (ran.code, "no such file or folder (did you mean 'props'?)" in ran.out) == (2, True)
 
 
 def git(folder: Path, *arguments: str) -> None:
@@ -488,7 +511,7 @@ def test_the_proposed_check_leaves_out_what_it_would_refuse(tmp_path: Path) -> N
     (tmp_path / "s.toml").write_text(scene)  # it may place a STEP file
     options = ("--limit", "scene-seconds=99,scene-megabytes=3000", "--read", "chord-tolerance=1")
     ran = satcheck("batch", ".", *options, cwd=tmp_path)
-    assert ran.out.endswith("Next: satcheck gripper.glb lists its pairs.\n")
+    assert "\nNext: satcheck gripper.glb lists its pairs.\n" in ran.out
 
 
 @on_posix

@@ -132,6 +132,17 @@ def test_files_that_stand_around_the_origin_may_be_assets(tmp_path: Path) -> Non
     first, second, *_ = satcheck("--no-depth", *names, cwd=tmp_path).err.splitlines()
     assert "files lie around the origin. If each file is an asset of its own:" in first
     assert second == "  satcheck batch 'my props'"
+    for k in range(3):
+        shutil.copy(SAMPLES / "box.obj", assets / f"box{k}.obj")
+    names = [f"my props/{path.name}" for path in sorted(assets.iterdir())]
+    last = satcheck("--no-depth", *names, cwd=tmp_path).out.splitlines()[-1]
+    assert last.startswith("Next: satcheck batch checks each file by itself")
+    for k in range(2):
+        (assets / f"more{k}").mkdir()
+    names = [f"my props/{path.name}" for path in sorted(assets.iterdir())]
+    told = satcheck("--no-depth", *names, cwd=tmp_path).err
+    assert "in the folders by itself:\n  satcheck batch 'my props'\n" in told
+    names = names[:4]
     assert satcheck("--no-depth", *names[:3], cwd=tmp_path).err == ""
     for k in range(4):
         far = f"v {100 * k} 0 0\nv {100 * k + 1} 0 0\nv {100 * k} 1 0\nf 1 2 3\n"

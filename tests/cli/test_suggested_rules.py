@@ -288,3 +288,9 @@ def test_a_scene_is_resolved_beside_its_rules(tmp_path: Path) -> None:
     ran = satcheck("resolve", *given, "rules.toml", "-o", "moved.toml", cwd=tmp_path)
     assert ran.code == 0, ran.err
     assert satcheck("moved.toml", cwd=tmp_path).code == 0
+
+
+def test_rules_go_to_a_file_whose_name_says_so(tmp_path: Path) -> None:
+    ran = satcheck("suggest", str(SAMPLES / "gripper.glb"), "-o", "rules.yaml", cwd=tmp_path)
+    assert (ran.code, (tmp_path / "rules.yaml").exists()) == (2, False)
+    assert "this command writes .toml, .json or .srdf" in ran.err

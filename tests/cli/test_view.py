@@ -87,7 +87,7 @@ def test_of_many_assets_the_worst_opens_and_a_page_is_a_gallery(folder: Path) ->
     for stored in ("report.json", "all.jsonl"):
         opened = satcheck("view", stored, cwd=folder, env=env)
         assert opened.code == 0
-        assert "rack.3mf is the worst of 2 assets" in opened.err
+        assert "rack.3mf has the worst finding of 2 assets" in opened.err
         page = Path(opened.out.strip())
         assert page_data(page.read_text())["findings"]
         shutil.rmtree(page.parent)
@@ -97,6 +97,24 @@ def test_of_many_assets_the_worst_opens_and_a_page_is_a_gallery(folder: Path) ->
         assert (folder / "worst.png").read_bytes().startswith(b"\x89PNG")
         assert (folder / "all.xml").read_text().count("<testsuite ") == 2
     assert satcheck("view", "report.json", "--format", "table", cwd=folder).out.startswith("asset ")
+
+
+def test_an_asset_that_cannot_be_read_is_not_drawn_in_place_of_an_overlap(folder: Path) -> None:
+    (folder / "broken.glb").write_bytes(b"glTF")
+    satcheck("batch", "rack.3mf", "broken.glb", "-o", "all.jsonl", cwd=folder)
+    ran = satcheck("view", "all.jsonl", "-o", "worst.png", cwd=folder)
+    assert "rack.3mf has the worst finding of 2 assets" in ran.err
+    assert "Image of all bodies" not in ran.err
+    part = satcheck("view", "all.jsonl", "--asset", "rack", "-o", "worst.png", cwd=folder)
+    assert (part.code, "did you mean 'rack.3mf'" in part.err) == (2, True)
+
+
+@pytest.mark.parametrize("output", [(), ("-o", "out.png")])
+def test_files_without_a_result_are_an_error(folder: Path, output: tuple[str, ...]) -> None:
+    satcheck(*PUSHED, "-o", "findings.jsonl", cwd=folder)
+    ran = satcheck("view", "findings.jsonl", *output, cwd=folder)
+    assert (ran.code, ran.out) == (2, "")
+    assert "a check stores its report with -o report.json" in ran.err
 
 
 def test_a_report_is_told_in_other_formats_with_the_code_of_its_check(folder: Path) -> None:
@@ -113,6 +131,16 @@ def test_what_is_no_report_is_refused(folder: Path, text: str) -> None:
     assert ran.code == 2
     assert "report.json" in ran.err
     assert not (folder / "out.html").exists()
+
+
+@pytest.mark.parametrize("name", ["out.html", "out.sarif", "out.csv"])
+def test_a_report_in_another_format_is_refused_with_the_one_to_store(
+    folder: Path, name: str
+) -> None:
+    satcheck(*PUSHED, "-o", name, cwd=folder)
+    ran = satcheck("view", name, cwd=folder)
+    assert ran.code == 2
+    assert f"{name}: no JSON report: a check writes one with -o report.json" in ran.err
 
 
 def test_other_endings_are_refused(folder: Path) -> None:
