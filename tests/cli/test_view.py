@@ -96,7 +96,7 @@ def test_of_many_assets_the_worst_opens_and_a_page_is_a_gallery(folder: Path) ->
         assert "data:image/png" in (folder / "all.html").read_text()
         assert (folder / "worst.png").read_bytes().startswith(b"\x89PNG")
         assert (folder / "all.xml").read_text().count("<testsuite ") == 2
-    assert satcheck("view", "report.json", "--format", "table", cwd=folder).out.startswith("\u256d")
+    assert satcheck("view", "report.json", "--format", "table", cwd=folder).out.startswith("asset")
 
 
 def test_a_report_is_told_in_other_formats_with_the_code_of_its_check(folder: Path) -> None:
@@ -118,3 +118,31 @@ def test_what_is_no_report_is_refused(folder: Path, text: str) -> None:
 def test_other_endings_are_refused(folder: Path) -> None:
     satcheck(*PUSHED, "-o", "report.json", cwd=folder)
     assert satcheck("view", "report.json", "-o", "out.xlsx", cwd=folder).code == 2
+
+
+def test_the_named_pose_is_drawn_and_said(tmp_path: Path) -> None:
+    arm = ("arm.urdf", "arm.srdf", "--pose", '[{"elbow": 3}, {}, {"shoulder": 2.25}]')
+    stored = str(tmp_path / "report.json")
+    assert satcheck(*arm, "-o", stored).code == 1
+    for pose in ("1", "3"):
+        picture = str(tmp_path / "pose.png")
+        ran = satcheck("view", stored, "--pose", pose, "-o", picture)
+        assert ran.err == f"Image of pose {pose}: {picture}\n"
+
+
+@pytest.mark.parametrize(
+    ("given", "asked", "said"),
+    [
+        (("--pose", "[{}, {}]"), ("--pose", "1", "--format", "table"), "--pose is for pictures"),
+        (("--path", "arm_poses.json"), ("--pose", "1"), "not about several poses"),
+        (("--path", "arm_poses.json"), ("--pictures", "shots"), "-o picture.png draws it"),
+    ],
+)
+def test_an_option_that_would_have_no_effect_is_refused(
+    tmp_path: Path, given: tuple[str, ...], asked: tuple[str, ...], said: str
+) -> None:
+    stored = str(tmp_path / "report.json")
+    satcheck("arm.urdf", "arm.srdf", *given, "-o", stored)
+    ran = satcheck("view", stored, *asked)
+    assert ran.code == 2
+    assert said in ran.err
