@@ -47,11 +47,10 @@ def _run() -> int:
     except MemoryError:
         return _failed("error: out of memory [out-of-memory]", debug)
     except click.UsageError as error:
+        advice = _advice(error) if isinstance(error, click.NoSuchOption) else []
         shown = io.StringIO()
         error.show(shown)
-        talk(shown.getvalue().removesuffix("\n"))
-        if isinstance(error, click.NoSuchOption):
-            _advise(error)
+        talk("\n".join([shown.getvalue().removesuffix("\n"), *advice]))
         return exit_codes.ERROR
     except click.ClickException as error:
         return _failed(f"error: {error.format_message()}", debug)
@@ -63,11 +62,15 @@ def _run() -> int:
     return result if isinstance(result, int) else exit_codes.CLEAN
 
 
-def _advise(error: click.NoSuchOption) -> None:
+def _advice(error: click.NoSuchOption) -> list[str]:
+    """Return a command to type instead. The error then names no option of its own that is near."""
     from satcheck.cli.slips import about_option
 
-    if advice := about_option(error):
-        talk(str(advice))
+    advice = about_option(error)
+    if advice is None:
+        return []
+    error.possibilities = None
+    return [str(advice)]
 
 
 def _call() -> object:
