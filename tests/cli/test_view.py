@@ -67,7 +67,7 @@ def test_a_missing_file_leaves_its_findings_as_text(folder: Path) -> None:
     (folder / "box.obj").unlink()
     ran = satcheck("view", "report.json", "-o", "out.html", cwd=folder)
     assert ran.code == 3
-    assert "not drawn" in ran.err
+    assert "no such file (--root names the folder where the check ran)" in ran.err
     (finding,) = page_data((folder / "out.html").read_text())["findings"]
     assert (finding["a"], finding["b"]) == (None, 0)
 
