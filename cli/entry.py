@@ -47,9 +47,12 @@ def _run() -> int:
     except MemoryError:
         return _failed("error: out of memory [out-of-memory]", debug)
     except click.UsageError as error:
-        advice = _advice(error) if isinstance(error, click.NoSuchOption) else []
+        advice: list[str] = []
+        told = error
+        if isinstance(error, click.NoSuchOption) and (advice := _advice(error)):
+            told = click.NoSuchOption(error.option_name, ctx=error.ctx)  # not what click finds near
         shown = io.StringIO()
-        error.show(shown)
+        told.show(shown)
         talk("\n".join([shown.getvalue().removesuffix("\n"), *advice]))
         return exit_codes.ERROR
     except click.ClickException as error:
@@ -63,14 +66,11 @@ def _run() -> int:
 
 
 def _advice(error: click.NoSuchOption) -> list[str]:
-    """Return a command to type instead. The error then names no option of its own that is near."""
+    """Return a command to type instead, or nothing."""
     from satcheck.cli.slips import about_option
 
     advice = about_option(error)
-    if advice is None:
-        return []
-    error.possibilities = None
-    return [str(advice)]
+    return [] if advice is None else [str(advice)]
 
 
 def _call() -> object:
