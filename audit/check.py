@@ -83,6 +83,7 @@ def check(
     Raises SatcheckError (`too-few-bodies`; from loading: what the scene
     room raises). A file that cannot be used and a pair that fails are results, not errors.
     """
+    _refuse_two(scene, settings)
     require_settings(settings)
     scene = _loaded(scene, settings)
     if scene.asks_for_support or scene.asks_for_regions:
@@ -154,6 +155,15 @@ def check(
         regions=regions,
     )
     return with_messages(report)
+
+
+def _refuse_two(first: object, second: object) -> None:
+    """Refuse two paths or two meshes, each an argument of its own."""
+    if isinstance(first, str | Path) and isinstance(second, str | Path):
+        message = f"paths go in one list: satcheck.check([{str(first)!r}, {str(second)!r}])"
+        raise SatcheckError("bad-argument", message)
+    if hasattr(first, "vertices") and hasattr(second, "vertices"):
+        raise SatcheckError("bad-argument", "satcheck.check_meshes takes two meshes")
 
 
 def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:

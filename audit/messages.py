@@ -170,14 +170,22 @@ def _unmeasured(report: Report) -> list[str]:
 
 
 def _kinds(worst: Iterable[Finding], report: Report) -> str:
-    """Return `6 of 21 pairs overlap, 1 is too close`."""
+    """Return `6 of 21 pairs overlap, 1 is too close`; `overlap more than allowed` beside overlaps
+    that pass."""
     kinds = Counter("possibly" if _is_unsure(f, report) else kind_of(f) for f in worst)
     total = f" of {counted(report.summary.pairs.total, 'pair')}"
     said: list[str] = []
     for kind, verbs in _VERBS.items():
         if count := kinds[kind]:
-            said.append(f"{count:,}{'' if said else total} {verbs[count > 1]}")
+            allowed = kind == "overlap" and any(map(_is_allowed, report.findings))
+            too_much = " more than allowed" if allowed else ""
+            said.append(f"{count:,}{'' if said else total} {verbs[count > 1]}{too_much}")
     return ", ".join(said)
+
+
+def _is_allowed(finding: Finding) -> bool:
+    """Return whether a rule lets this overlap pass."""
+    return finding.severity in ("note", "silenced") and finding.at_rest in OVERLAPS
 
 
 def _unmet(report: Report) -> list[str]:

@@ -40,7 +40,8 @@ LISTED_UNDECIDABLE = 10_000
 
 
 class Settings(StatedSettings, frozen=True, kw_only=True):
-    """What is asked. `StatedSettings` has what can change an answer; the rest changes none.
+    """What is asked. `satcheck.report.settings.StatedSettings` describes what can change an answer;
+    the rest changes none.
 
     certificate: Add evidence to a JSON report, for satcheck verify.
     distance: Measure the gap of every pair, however large.
@@ -136,7 +137,8 @@ def _reason(error: ValidationError, kind: Any) -> str:
     choices = [word for inner in (kind, *get_args(kind)) for word in get_args(inner)]
     if str(error).startswith("Invalid enum value"):
         return f"one of {', '.join(filter(lambda word: isinstance(word, str), choices))} expected"
-    return str(error).removesuffix(".")
+    expected, _, _ = str(error).removeprefix("Expected ").partition(", got ")
+    return f"{expected.replace('null', 'None')} expected"
 
 
 def _refused(message: str) -> SatcheckError:

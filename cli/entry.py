@@ -47,11 +47,13 @@ def _run() -> int:
     except MemoryError:
         return _failed("error: out of memory [out-of-memory]", debug)
     except click.UsageError as error:
+        advice: list[str] = []
+        told = error
+        if isinstance(error, click.NoSuchOption) and (advice := _advice(error)):
+            told = click.NoSuchOption(error.option_name, ctx=error.ctx)  # not what click finds near
         shown = io.StringIO()
-        error.show(shown)
-        talk(shown.getvalue().removesuffix("\n"))
-        if isinstance(error, click.NoSuchOption):
-            _advise(error)
+        told.show(shown)
+        talk("\n".join([shown.getvalue().removesuffix("\n"), *advice]))
         return exit_codes.ERROR
     except click.ClickException as error:
         return _failed(f"error: {error.format_message()}", debug)
@@ -63,11 +65,12 @@ def _run() -> int:
     return result if isinstance(result, int) else exit_codes.CLEAN
 
 
-def _advise(error: click.NoSuchOption) -> None:
+def _advice(error: click.NoSuchOption) -> list[str]:
+    """Return a command to type instead, or nothing."""
     from satcheck.cli.slips import about_option
 
-    if advice := about_option(error):
-        talk(str(advice))
+    advice = about_option(error)
+    return [] if advice is None else [str(advice)]
 
 
 def _call() -> object:

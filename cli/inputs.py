@@ -157,6 +157,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
         scene = inputs.load_options.load(paths, hashed=hashed, must_count=typed(inputs.read))
+    if inputs.units and _is_typed("units") and _is_stated(paths, scene):
+        talk("satcheck: note: --units has no effect: each file states its unit")
     told = (issue for issue in scene.issues if tell_all or issue.severity == "error")
     for issue in dict.fromkeys(told):
         talk(f"satcheck: {issue_line(issue)}")
@@ -175,6 +177,12 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
     for line in advice:
         talk(line)
     return scene
+
+
+def _is_stated(paths: Sequence[str], scene: Scene) -> bool:
+    """Return whether all inputs are mesh files that state their unit."""
+    read = [body.file for body in scene.bodies]
+    return bool(read) and all(map(is_mesh, paths)) and all(file.units for file in read)
 
 
 def typed(read: ReadOptions) -> ReadOptions:

@@ -139,16 +139,22 @@ def refuse_outputs(outputs: Sequence[Path], inputs: Inputs, baseline: Path | Non
         files.append(output)
 
 
-def files_line(report: Report | SamplesReport, scene: Scene, targets: Iterable[Target]) -> str:
-    """`Report: a.json. Image of box and lid: a.png. Model: a.glb`; empty without a file."""
+def files_line(
+    report: Report | SamplesReport,
+    scene: Scene,
+    targets: Iterable[Target],
+    pose: int | None = None,
+) -> str:
+    """`Report: a.json. Image of box and lid: a.png. Model: a.glb`; empty without a file. pose: the
+    drawn one of several; None: the worst."""
     return ". ".join(
-        f"{_what(target.form, report, scene)}: {target.output}"
+        f"{_what(target.form, report, scene, pose)}: {target.output}"
         for target in targets
         if target.output is not None
     )
 
 
-def _what(form: str, report: Report | SamplesReport, scene: Scene) -> str:
+def _what(form: str, report: Report | SamplesReport, scene: Scene, pose: int | None) -> str:
     from satcheck.cli.formats.picture.data import drawn_finding
 
     if form == "glb":
@@ -158,8 +164,9 @@ def _what(form: str, report: Report | SamplesReport, scene: Scene) -> str:
     if isinstance(report, SamplesReport):
         from satcheck.cli.formats.picture.poses import worst_pose
 
-        worst = worst_pose(report)
-        return f"Image of pose {worst.number}" if worst else "Image of all bodies"
+        if pose is None and (worst := worst_pose(report)):
+            pose = worst.number
+        return "Image of all bodies" if pose is None else f"Image of pose {pose}"
     finding = drawn_finding(report, scene)
     return f"Image of {f'{finding.a} and {finding.b}' if finding else 'all bodies'}"
 

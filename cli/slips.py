@@ -12,6 +12,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
+from itertools import pairwise
 from operator import mul
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -23,6 +24,7 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.readers import mesh_reader, options
 from satcheck.scene.loader import is_mesh
 from satcheck.scene.opening import exists, is_file, is_folder
+from satcheck.scene.units import MICROMETRES
 
 if TYPE_CHECKING:
     import click
@@ -63,7 +65,13 @@ _ALIASES: Mapping[str, tuple[str, ...]] = {
     "distance": ("--clearance",),
     "out": ("-o",),
     "output-format": ("--format",),
+    **dict.fromkeys(("picture", "image"), ("-o", "picture.png")),
+    **dict.fromkeys(
+        ("interference", "max-interference", "max-overlap", "overlap"), ("--max-thickness",)
+    ),
 }
+# Options of other programs before the name of a file to write, beside the names of our formats.
+_WRITERS = frozenset(("picture", "image", "save", "report"))
 
 
 # Words of other programs, and of earlier versions, for a command.
@@ -123,7 +131,8 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
         elif not equals:
             value, after = "".join(after[:1]), after[1:]
         return Advice("did you mean", _line([*words[:place], "--read", f"{name}={value}", *after]))
-    right = _meant(name, known)
+    following = value if equals else "".join(words[place + 1 : place + 2])
+    right = _meant(name, following, known)
     if right is None:
         return None
     words[place : place + 1] = [*right, *([value] if equals else [])]
@@ -135,6 +144,8 @@ def about_paths(paths: Sequence[str]) -> list[Advice]:
     if command := _about_command(paths[0]):
         return [command]
     bad = [path for path in paths if not is_file(path)]
+    if split := _split_length(bad):
+        return [split]
     near = {path: [other] for path in bad if (other := _nearest(path)) is not None}
     advice = [Advice("did you mean", _replacing(near))] if near else []
     folders = list(filter(is_folder, bad))
@@ -149,6 +160,24 @@ def about_paths(paths: Sequence[str]) -> list[Advice]:
         purpose = f"{twice} is given twice, so its bodies coincide. To check its pieces"
         advice.append(Advice(purpose, pieces))
     return advice
+
+
+def _split_length(bad: Sequence[str]) -> Advice | None:
+    """Of a length with a space before its unit: `--clearance 2 mm`."""
+    words = sys.argv[1:]
+    for k, (value, unit) in enumerate(pairwise(words)):
+        if unit in bad and unit.lower() in MICROMETRES and _is_number(value.rpartition("=")[2]):
+            joined = [*words[:k], f"{value}{unit}", *words[k + 2 :]]
+            return Advice("a length has no space", _line(joined))
+    return None
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def about_assets(paths: Sequence[str], scene: Scene) -> list[Advice]:
@@ -326,9 +355,13 @@ def _listed(folder: Path) -> list[Path]:
         return []
 
 
-def _meant(wrong: str, known: Sequence[str]) -> tuple[str, ...] | None:
-    from satcheck.cli.formats.registry import REPORTS, formats
+def _meant(wrong: str, following: str, known: Sequence[str]) -> tuple[str, ...] | None:
+    """following: the word after it, or its value."""
+    from satcheck.cli.formats.registry import ALL, REPORTS, formats
 
+    ending = Path(following).suffix.removeprefix(".")
+    if ending in formats(ALL) and wrong in {*_WRITERS, ending} and "-o" in known:
+        return ("-o",)
     if wrong in formats(REPORTS) and "--format" in known:
         return ("--format", wrong)
     alias = _ALIASES.get(wrong)

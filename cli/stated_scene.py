@@ -54,7 +54,9 @@ def stated_scene(
             continue  # the report says why
         file = _mesh_file(entry, files, root)
         if isinstance(file, Refused):
-            issues.append(_issue(GONE, entry, f"not drawn: {file}"))
+            missing = file.code == "file-not-found"
+            hint = " (--root names the folder where the check ran)" if missing else ""
+            issues.append(_issue(GONE, entry, f"not drawn: {file}{hint}"))
             continue
         body = _placed(entry, file)
         try:

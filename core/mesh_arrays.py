@@ -47,7 +47,9 @@ def arrays_of(mesh: MeshLike) -> tuple[Array, Array]:
         vertices = getattr(mesh, "vertices", None)
         faces = getattr(mesh, "faces", getattr(mesh, "triangles", None))
     if vertices is None or faces is None:
-        hint = " (satcheck.check takes paths)" if isinstance(mesh, str | Path) else ""
+        hint = ""
+        if isinstance(mesh, str | Path):
+            hint = " (satcheck.check takes paths, satcheck.Mesh.read one)"
         if isinstance(mesh, tuple | list):
             hint = " (satcheck.scene_of_meshes takes several meshes, by name)"
         if hasattr(mesh, "geometry"):  # a trimesh.Scene

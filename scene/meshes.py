@@ -43,7 +43,10 @@ class Mesh:
 
     __slots__ = ("_file",)
 
-    def __init__(self, vertices: ArrayLike, faces: ArrayLike) -> None:
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike | None = None) -> None:
+        if faces is None:
+            hint = "Mesh.of takes an object with both, such as a trimesh.Trimesh; Mesh.read a file"
+            raise SatcheckError("bad-argument", f"Mesh: vertices and faces, not one value: {hint}")
         try:
             self._file = replace(_mesh_file("mesh", *arrays_of((vertices, faces))), prepared={})
         except Refused as error:

@@ -149,6 +149,10 @@ def command(
         return view.assets(each, stored.issues, _least(stored), asset)
     if asset is not None:
         raise click.UsageError(f"--asset: {reports[0]} is the report of one check")
+    if folder is not None:
+        raise click.UsageError(
+            f"--pictures: {reports[0]} is the report of one check: -o picture.png draws it"
+        )
     return view.report(stored)
 
 
@@ -213,8 +217,10 @@ class _View(NamedTuple):
         if isinstance(stated, SamplesReport):
             refuse_of_poses(self.to.forms)
         elif self.pose is not None:
-            raise click.UsageError("--pose: the report is about one pose")
+            raise click.UsageError("--pose: the report is not about several poses")
         pictures = [t for t in self.to.targets if kind_of(t.form) == "picture"]
+        if self.pose is not None and self.to.targets and not pictures:
+            raise click.UsageError("--pose is for pictures: add -o pose.html")
         scene, issues = Scene(name="", units=stated.units, bodies=()), list[Issue]()
         if pictures or not self.to.targets:
             root, allow_outside = self.drawing.root, self.drawing.allow_outside
@@ -227,7 +233,7 @@ class _View(NamedTuple):
             self.document.deliver(text, output, utf8=form != "table")
         if not self.to.targets:
             _show(self._drawn("html", stated, scene), self.document)
-        elif files := files_line(stated, scene, self.to.targets):
+        elif files := files_line(stated, scene, self.to.targets, self.pose):
             talk(files)
         if len(pictures) == len(self.to.targets):
             return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN

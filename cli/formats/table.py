@@ -140,7 +140,8 @@ def columns_of(
     known = unit_of(report.units)
     unit = f" ({known})" if known else ""
     rounded = max((about(finding.mtv) for finding in findings), default="")
-    placed = " as placed" if any(finding.motion is not None for finding in findings) else ""
+    moves = any(finding.motion is not None for finding in findings)
+    placed = " as placed" if moves else ""
 
     def column(name: str, cell: Callable[[Finding], str], **how: bool) -> Column:
         return Column(name, tuple(map(cell, findings)), **how)
@@ -155,7 +156,7 @@ def columns_of(
         column(f"move A by {rounded}".rstrip() + unit, _mtv, folds=True),
         column(f"volume{placed}{f' ({known}^3)' if known else ''}", _volume, right=True),
         column(f"contact{placed}", contacts, folds=True),
-        column("in motion", lambda finding: in_motion(finding, known), folds=True),
+        column("in motion", lambda finding: _moving(finding, known, moves), folds=True),
     ]
     if any(finding.severity != _implied(finding) or finding.baseline_state for finding in findings):
         made.insert(3, column("severity", _severity, graded=True))
@@ -208,6 +209,13 @@ def _severity(finding: Finding) -> str:
     said = "" if finding.severity == "none" else finding.severity
     state = finding.baseline_state
     return f"{said}, {'known' if state == 'unchanged' else state}" if state else said
+
+
+def _moving(finding: Finding, unit: str | None, moves: bool) -> str:
+    """moves: others do. Bodies that overlap and keep their places to each other always overlap."""
+    if moves and finding.motion is None and finding.at_rest in OVERLAPS:
+        return "throughout"
+    return in_motion(finding, unit)
 
 
 def _volume(finding: Finding) -> str:

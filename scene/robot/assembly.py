@@ -265,6 +265,7 @@ def _checked_neighbours(robot: SceneRobot) -> Iterator[Issue]:
         pairs, are = ("pair", "is") if len(checked) == 1 else ("pairs", "are")
         message = (
             f"{len(checked)} {pairs} of links with a joint between them {are} checked like any "
-            f"other, as no SRDF allows them to touch: {listed(checked)}"
+            "other, as no SRDF allows them to touch (suggest --format srdf writes one): "
+            f"{listed(checked)}"
         )
         yield issue("neighbours-checked", message, file=robot.robot.file)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import struct
 from importlib import import_module
+from types import SimpleNamespace
 
 import pytest
 from jsonschema import Draft202012Validator
@@ -314,3 +315,15 @@ def test_flush_nodes_touch_however_far_out_a_program_put_them(tmp_path):
     assert {f.relation for f in side_by_side} == {"touching"}
     assert len(side_by_side) == len(nodes) - 1
     assert {f.exact_relation for f in side_by_side} == {"penetrating", "separated"}
+
+
+def test_two_arguments_that_are_no_scene_get_the_right_call():
+    def refused(first, second):
+        with pytest.raises(SatcheckError) as caught:
+            check(first, second)
+        return caught.value.message
+
+    assert refused("a.stl", "b.stl").endswith(": satcheck.check(['a.stl', 'b.stl'])")
+    box = SimpleNamespace(vertices=[], faces=[])
+    assert refused(box, box) == "satcheck.check_meshes takes two meshes"
+    assert refused(["a.stl"], {"depth": True}).startswith("settings should be a satcheck.Settings")

@@ -31,6 +31,10 @@ def test_refused(given):
 def test_a_refusal_names_the_words_that_a_setting_takes():
     with pytest.raises(SatcheckError, match=r"accuracy: one of aabb, .*exact expected, not 'best'"):
         Settings(accuracy="best")
+    with pytest.raises(SatcheckError, match=r"clearance: `float \| None` expected, not '2mm'"):
+        Settings(clearance="2mm")  # type: ignore[arg-type]
+    with pytest.raises(SatcheckError, match=r"clearance: `float` >= 0.0 expected, not -1"):
+        Settings(clearance=-1)
     with pytest.raises(SatcheckError, match="planar: one of xy, yz, xz expected, not 'x'"):
         Settings(planar="x")
 

@@ -97,6 +97,15 @@ def test_an_open_mesh_that_decides_names_the_option() -> None:
             ),
         ),
         (
+            (THICK, UNMEASURED, replace(BOUNDED, severity="note")),
+            (
+                "2 bodies, 3 pairs: 2 penetrating, 1 containing.",
+                "FAIL: 2 of 3 pairs overlap more than allowed; worst: block and block_pushed "
+                "overlap (thickness 0.5, 1 to pull apart). "
+                "Next: -o report.html shows them in 3-D.",
+            ),
+        ),
+        (
             (replace(SEPARATED, severity="error", relation="near", distance=0.5),),
             (
                 "2 bodies, 1 pair: 1 near.",

@@ -49,6 +49,10 @@ def expanded(command: str, folder: Path) -> list[str]:
         (["help", "resolve"], ["resolve --help"]),
         (["--json", "box.obj", "cube.off"], ["--format json box.obj cube.off"]),
         (["box.obj", "cube.off", "--html"], ["box.obj cube.off -o report.html"]),
+        (["box.obj", "cube.off", "--csv", "a.csv"], ["box.obj cube.off -o a.csv"]),
+        (["box.obj", "cube.off", "--picture=a.png"], ["box.obj cube.off -o a.png"]),
+        (["box.obj", "cube.off", "--image"], ["box.obj cube.off -o picture.png"]),
+        (["box.obj", "--max-overlap", "1", "cube.off"], ["box.obj --max-thickness 1 cube.off"]),
         (["box.obj", "cube.off", "--output-format", "json"], ["box.obj cube.off --format json"]),
         (["level", "my parts"], ["batch level 'my parts'"]),
         (["bach", "my parts"], ["batch 'my parts'"]),
@@ -103,6 +107,18 @@ def test_what_is_advised_works(typed: list[str], folder: Path) -> None:
             _, *words = expanded(line.strip(), folder)
             ran = satcheck(*words, cwd=folder)
             assert ran.code in (0, 1, 3), (line, ran.err)
+
+
+def test_a_length_has_no_space(folder: Path) -> None:
+    ran = satcheck("--clearance", "2", "mm", "box.obj", "cube.off", cwd=folder)
+    assert ran.code == 2
+    assert ran.err.endswith("no space:\n  satcheck --clearance 2mm box.obj cube.off\n")
+
+
+def test_of_a_known_slip_no_other_option_is_proposed(folder: Path) -> None:
+    said = satcheck("box.obj", "cube.off", "--html", cwd=folder).err
+    assert "No such option '--html'.\n" in said
+    assert "--help'?" not in said
 
 
 def test_a_file_named_like_a_word_of_other_programs_can_be_checked(folder: Path) -> None:

@@ -21,6 +21,7 @@ from tests.cli.reports import (
     BOUNDED,
     CONTACTS,
     CROSSING,
+    HIT,
     PENETRATING,
     SEPARATED,
     SWEPT,
@@ -306,3 +307,9 @@ def test_explain_shows_each_step() -> None:
     assert re.search(r"hull +penetrating +11.5 us +both are convex: nothing finer is needed", text)
     assert re.search(r"soup +soup.stl: 1,234 triangles, not closed, concave", text)
     assert "3 convex parts: they stick out of the mesh by at most 0.25, and the mesh" in text
+
+
+def test_bodies_that_overlap_on_a_whole_way_do_so_throughout() -> None:
+    text = render(report(HIT, PENETRATING), PLAIN_PAGE, explain=False, timings=True)
+    assert sorted(row[-1] for row in rows(text)[1:]) == ["hits at", "throughout"]
+    assert "throughout" not in render(report(PENETRATING), PLAIN_PAGE, explain=False, timings=True)

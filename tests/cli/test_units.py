@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
 
-from tests.cli.process import VALIDATOR, satcheck
+from tests.cli.process import SAMPLES, VALIDATOR, satcheck
 from tests.scene import files
 
 JSON = ("--format", "json")
@@ -133,3 +134,13 @@ def test_a_table_of_poses_says_it() -> None:
     assert ran.code == 3
     last = " ".join(ran.out.split())
     assert "warning: box.obj: no unit of length is stated, unlike arm.urdf in m: their" in last
+
+
+def test_a_unit_without_effect_is_said(tmp_path: Path) -> None:
+    (tmp_path / "a.glb").write_bytes(glb(cube_at(0)))
+    (tmp_path / "b.glb").write_bytes(glb(cube_at(3)))
+    said = "--units has no effect: each file states its unit"
+    assert said in satcheck("a.glb", "b.glb", "--units", "mm", cwd=tmp_path).err
+    assert said not in satcheck("a.glb", "b.glb", cwd=tmp_path).err
+    shutil.copy(SAMPLES / "box.obj", tmp_path)
+    assert said not in satcheck("a.glb", "box.obj", "--units", "mm", cwd=tmp_path).err

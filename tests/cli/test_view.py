@@ -67,7 +67,7 @@ def test_a_missing_file_leaves_its_findings_as_text(folder: Path) -> None:
     (folder / "box.obj").unlink()
     ran = satcheck("view", "report.json", "-o", "out.html", cwd=folder)
     assert ran.code == 3
-    assert "not drawn" in ran.err
+    assert "no such file (--root names the folder where the check ran)" in ran.err
     (finding,) = page_data((folder / "out.html").read_text())["findings"]
     assert (finding["a"], finding["b"]) == (None, 0)
 
@@ -146,3 +146,31 @@ def test_a_report_in_another_format_is_refused_with_the_one_to_store(
 def test_other_endings_are_refused(folder: Path) -> None:
     satcheck(*PUSHED, "-o", "report.json", cwd=folder)
     assert satcheck("view", "report.json", "-o", "out.xlsx", cwd=folder).code == 2
+
+
+def test_the_named_pose_is_drawn_and_said(tmp_path: Path) -> None:
+    arm = ("arm.urdf", "arm.srdf", "--pose", '[{"elbow": 3}, {}, {"shoulder": 2.25}]')
+    stored = str(tmp_path / "report.json")
+    assert satcheck(*arm, "-o", stored).code == 1
+    for pose in ("1", "3"):
+        picture = str(tmp_path / "pose.png")
+        ran = satcheck("view", stored, "--pose", pose, "-o", picture)
+        assert ran.err == f"Image of pose {pose}: {picture}\n"
+
+
+@pytest.mark.parametrize(
+    ("given", "asked", "said"),
+    [
+        (("--pose", "[{}, {}]"), ("--pose", "1", "--format", "table"), "--pose is for pictures"),
+        (("--path", "arm_poses.json"), ("--pose", "1"), "not about several poses"),
+        (("--path", "arm_poses.json"), ("--pictures", "shots"), "-o picture.png draws it"),
+    ],
+)
+def test_an_option_that_would_have_no_effect_is_refused(
+    tmp_path: Path, given: tuple[str, ...], asked: tuple[str, ...], said: str
+) -> None:
+    stored = str(tmp_path / "report.json")
+    satcheck("arm.urdf", "arm.srdf", *given, "-o", stored)
+    ran = satcheck("view", stored, *asked)
+    assert ran.code == 2
+    assert said in ran.err

@@ -10,6 +10,7 @@ import trimesh
 from satcheck.core import Mesh
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
+from satcheck.scene.meshes import Mesh as Prepared
 from satcheck.scene.meshes import scene_of_meshes
 
 CUBE = trimesh.creation.box((2.0, 2.0, 2.0))
@@ -133,7 +134,7 @@ def test_the_identity_leaves_a_body_as_it_is() -> None:
 @pytest.mark.parametrize(
     ("mesh", "words"),
     [
-        ("cube.obj", "vertices and faces, or a pair .*, got str .satcheck.check takes paths."),
+        ("cube.obj", "vertices and faces, or a pair .*, got str .satcheck.check takes paths, "),
         (None, "an object with vertices and faces, or a pair .vertices, faces., got NoneType"),
         ((VERTICES,), "got tuple"),
         ((VERTICES, FACES[:, :2]), r"faces: three integers a row, got shape \(12, 2\)"),
@@ -160,6 +161,12 @@ def test_what_is_no_mesh_is_refused_in_words(mesh: Any, words: str) -> None:
     with pytest.raises(SatcheckError, match=f"^body 'cube': .*{words}") as refused:
         scene_of_meshes({"cube": mesh})
     assert refused.value.code == "bad-argument"
+
+
+@pytest.mark.parametrize("given", ["cube.obj", SimpleNamespace(vertices=VERTICES, faces=FACES)])
+def test_a_mesh_takes_arrays_and_names_what_takes_the_rest(given: Any) -> None:
+    with pytest.raises(SatcheckError, match=r"Mesh\.of takes an object .*; Mesh\.read a file"):
+        Prepared(given)
 
 
 def test_a_mesh_that_a_file_could_not_hold_either_has_the_code_of_the_file() -> None:

@@ -65,6 +65,7 @@ def test_without_an_srdf_neighbours_are_checked_and_a_note_says_so() -> None:
     (note,) = [issue for issue in scene.issues if issue.code == "neighbours-checked"]
     assert note.severity == "note"
     assert note.message.startswith("5 pairs of links")
+    assert "suggest --format srdf writes one" in note.message
 
 
 def test_one_pair_of_neighbours_is_one(tmp_path: Path) -> None:
