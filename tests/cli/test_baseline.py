@@ -359,7 +359,7 @@ def test_a_leg_that_sinks_deeper_is_caught_without_any_option(command: str, tmp_
     satcheck(*REPORTS[command], cwd=tmp_path)
     report = REPORTS[command][-1]
     if command == "batch":  # a baseline is made of reports
-        satcheck("report", report, "-o", "report.json", cwd=tmp_path)
+        satcheck("view", report, "-o", "report.json", cwd=tmp_path)
         report = "report.json"
     written = satcheck("baseline", "write", "known.json", report, cwd=tmp_path)
     assert (written.code, "1 added" in written.out) == (0, True)
