@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.manifest import read_manifest
 from satcheck.audit.batch.results import PART
-from satcheck.audit.batch.stored import Stored, StoredResults
+from satcheck.audit.batch.stored import Stored, StoredResults, least_of
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import Target, format_option, targets_of
@@ -33,9 +33,9 @@ from satcheck.cli.rendering import (
     rendered,
 )
 from satcheck.cli.stated_scene import read_stored, stated_scene
-from satcheck.cli.worlds import INTERRUPTED, Drawing, deliver_assets, tell_assets
+from satcheck.cli.worlds import Drawing, deliver_assets, tell_assets
 from satcheck.report.assets import AssetsReport, AssetVerdict
-from satcheck.report.report import NOTHING_TO_CHECK, Issue, Report
+from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.words import meant
@@ -147,16 +147,10 @@ def command(
     stored = read_stored(reports[0])
     if isinstance(stored, AssetsReport):
         each = [Stored((asset.file,), (), asset) for asset in stored.assets]
-        return view.assets(each, stored.issues, _least(stored), asset)
+        return view.assets(each, stored.issues, least_of(stored.issues), asset)
     if asset is not None:
         raise click.UsageError(f"--asset: {reports[0]} is the report of one check")
     return view.report(stored)
-
-
-def _least(stored: AssetsReport) -> AssetVerdict:
-    """Return what the issues of a report allow at best."""
-    is_open = any(issue.code in (INTERRUPTED, NOTHING_TO_CHECK) for issue in stored.issues)
-    return "incomplete" if is_open else "pass"
 
 
 class _View(NamedTuple):
@@ -182,8 +176,10 @@ class _View(NamedTuple):
         alone = [target for target in self.to.targets if _is_scene(target)]
         others = tuple(target for target in self.to.targets if not _is_scene(target))
         is_page = not self.to.targets and self.drawing.folder is None
+        if (alone or is_page) and not len(stored):
+            raise click.UsageError("there is no asset to draw")
         code = exit_codes.CLEAN
-        if (alone or is_page) and len(stored):
+        if alone or is_page:
             worst = min((each.asset for each in stored), key=asset_rank)
             if len(stored) > 1:
                 named = f"{worst.file} is the worst of {len(stored):,} assets"

@@ -96,7 +96,7 @@ def test_of_many_assets_the_worst_opens_and_a_page_is_a_gallery(folder: Path) ->
         assert "data:image/png" in (folder / "all.html").read_text()
         assert (folder / "worst.png").read_bytes().startswith(b"\x89PNG")
         assert (folder / "all.xml").read_text().count("<testsuite ") == 2
-    assert satcheck("view", "report.json", "--format", "table", cwd=folder).out.startswith("\u256d")
+    assert satcheck("view", "report.json", "--format", "table", cwd=folder).out.startswith("asset ")
 
 
 def test_a_report_is_told_in_other_formats_with_the_code_of_its_check(folder: Path) -> None:
@@ -118,3 +118,28 @@ def test_what_is_no_report_is_refused(folder: Path, text: str) -> None:
 def test_other_endings_are_refused(folder: Path) -> None:
     satcheck(*PUSHED, "-o", "report.json", cwd=folder)
     assert satcheck("view", "report.json", "-o", "out.xlsx", cwd=folder).code == 2
+
+
+@pytest.mark.parametrize("missing", ["a part", "an asset", "all"])
+def test_a_stored_report_of_a_batch_that_did_not_finish_passes_no_more_than_its_results(
+    folder: Path, missing: str
+) -> None:
+    satcheck("batch", "box.obj", "l_bracket.obj", "-o", "all.jsonl", cwd=folder)
+    results, options = "all.jsonl", list[str]()
+    if missing == "a part":
+        results = "all.jsonl.part"
+        (folder / "all.jsonl").rename(folder / results)
+    elif missing == "an asset":
+        (folder / "all.txt").write_text("box.obj\nl_bracket.obj\nrack.3mf\n")
+        options = ["--manifest", "all.txt"]
+    else:
+        (folder / "all.jsonl").write_text("")
+    assert satcheck("view", results, *options, "-o", "all.json", cwd=folder).code == 3
+    for form in ("table", "json", "junit"):
+        assert satcheck("view", "all.json", "--format", form, cwd=folder).code == 3
+
+
+def test_where_there_is_no_asset_nothing_is_drawn(folder: Path) -> None:
+    (folder / "all.jsonl").write_text("")
+    ran = satcheck("view", "all.jsonl", "-o", "worst.png", cwd=folder)
+    assert (ran.code, "no asset" in ran.err) == (2, True)

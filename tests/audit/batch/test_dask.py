@@ -89,7 +89,7 @@ def test_the_file_has_the_bytes_of_the_local_engine(cluster: LocalCluster, tmp_p
     far = ["--engine", "dask", "--scheduler", cluster.scheduler_address]
     for name, options in (("near", []), ("far", far)):
         ran = satcheck("batch", "*.toml", "-o", f"{name}.jsonl", *options, cwd=tmp_path)
-        assert "5 scenes" in ran.err
+        assert "5 assets" in ran.err
     assert (tmp_path / "far.jsonl").read_bytes() == (tmp_path / "near.jsonl").read_bytes()
 
 
