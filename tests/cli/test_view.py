@@ -135,8 +135,16 @@ def test_a_stored_report_of_a_batch_that_did_not_finish_passes_no_more_than_its_
     else:
         (folder / "all.jsonl").write_text("")
     assert satcheck("view", results, *options, "-o", "all.json", cwd=folder).code == 3
-    for form in ("table", "json", "junit"):
-        assert satcheck("view", "all.json", "--format", form, cwd=folder).code == 3
+    said = {
+        "table": "INCOMPLETE: ",
+        "json": '"verdict": "incomplete"',
+        "junit": 'errors="1"',
+        "markdown": "**incomplete** ",
+        "sarif": '"executionSuccessful": false',
+    }
+    for form, words in said.items():
+        ran = satcheck("view", "all.json", "--format", form, cwd=folder)
+        assert (ran.code, words in ran.out) == (3, True), form
 
 
 def test_where_there_is_no_asset_nothing_is_drawn(folder: Path) -> None:
