@@ -260,7 +260,7 @@ def _compared(before: KnownFinding, now: Finding, report: Report) -> BaselineSta
         return "undecided"
     if _GRAVITY[now.relation] > _GRAVITY[before.relation]:
         return "worse"
-    if before.unmeasured:
+    if before.unmeasured and now.undecided is None:
         return "accepted"
     if now.undecided is not None or before.units != report.units:
         return "undecided"

@@ -234,7 +234,9 @@ class Draft(Struct, eq=False):
     def indeterminate(self, reason: str) -> Finding:
         """Return the finding of a pair whose relation is not decided."""
         a, b = self.pair.a.id, self.pair.b.id
-        return indeterminate(a, b, reason, self.stages, self.reason_code)
+        # With a clearance it is open too whether the surfaces keep it.
+        code = None if self.pair.request.clearance else self.reason_code
+        return indeterminate(a, b, reason, self.stages, code)
 
 
 def indeterminate(

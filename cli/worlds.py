@@ -20,7 +20,7 @@ from satcheck.audit.batch.check_world import unused_rules, without_unused_rules
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.slot_server import Wanted
-from satcheck.audit.batch.stored import Stored, StoredResults
+from satcheck.audit.batch.stored import INTERRUPTED, Stored, StoredResults, least_of
 from satcheck.audit.words import counted
 from satcheck.cli import exit_codes
 from satcheck.cli.format_option import Target
@@ -41,14 +41,13 @@ from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
 from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
 from satcheck.core.errors import SatcheckError
-from satcheck.report.assets import Asset, AssetVerdict, Result
+from satcheck.report.assets import Asset, Result
 from satcheck.report.json import read_line
 from satcheck.report.report import NOTHING_TO_CHECK, Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import has_only_rules, read_rules
 
-INTERRUPTED = "interrupted"
 _LIMITS = Limits()
 # Of one asset. Each needs address space, which the limit of a process counts.
 _MOST_THREADS = 8
@@ -101,9 +100,9 @@ def check_worlds(
         Stored(world, (), without_unused_rules(each, shared)) for world, each in assets.items()
     ]
     empty = _nothing_compared(found) if compares else ()
-    least: AssetVerdict = "incomplete" if interrupted or empty else "pass"
     issues = interrupted or (*empty, *unused)
-    seen = overview((each.asset for each in stored), issues, least=least, top=delivery.top)
+    seen_assets = (each.asset for each in stored)
+    seen = overview(seen_assets, issues, least=least_of(issues), top=delivery.top)
     top = Drawing().top if delivery.top is None else delivery.top
     drawing = Drawing(allow_outside=inputs.allow_outside, top=top)
     deliver_assets(document, seen, stored, delivery, drawing)

@@ -110,6 +110,11 @@ def unreadable_asset(file: str, error: SatcheckError) -> Asset:
     return asset(file, _without_bodies([Issue(error.code, "error", None, file, str(error))]))
 
 
+def beside_assets(issue: Issue) -> Asset:
+    """Return what stands for an issue about a whole batch among its assets."""
+    return asset(issue.file or "the batch", _without_bodies([issue]))
+
+
 def _beside(report: Report, file: str, baseline: Path) -> Report:
     known = current_baseline(baseline)
     return beside_baseline(report, known, str(baseline), (asset_key(file, baseline),))

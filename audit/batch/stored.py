@@ -22,7 +22,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result, worst_verdict
 from satcheck.report.atomic_file import replace_file
 from satcheck.report.json import read_line
-from satcheck.report.report import Issue
+from satcheck.report.report import NOTHING_TO_CHECK, Issue
 
 # The names of such files end so.
 ENDINGS = (".jsonl", ".ndjson", PART)
@@ -31,6 +31,7 @@ UNFINISHED = "unfinished-results"
 NO_RESULTS = "no-results"
 MISSING = "missing-results"
 DIFFERENT = "different-results"
+INTERRUPTED = "interrupted"
 # What an issue allows at best.
 _VERDICTS: dict[str, AssetVerdict] = {
     BAD_RESULT: "error",
@@ -38,6 +39,8 @@ _VERDICTS: dict[str, AssetVerdict] = {
     NO_RESULTS: "incomplete",
     MISSING: "incomplete",
     DIFFERENT: "pass",
+    INTERRUPTED: "incomplete",
+    NOTHING_TO_CHECK: "incomplete",
 }
 _LAST_COUNTS = "; the last file counts"  # in a report; nothing is merged then
 _NO_RESULTS = (
@@ -52,6 +55,11 @@ _NAMED = 10
 _MOST_OPEN = 128
 _SURROGATE = b"\\ud"
 _T = TypeVar("_T")
+
+
+def least_of(issues: Iterable[Issue]) -> AssetVerdict:
+    """Return the verdict that issues about a whole batch allow at best."""
+    return worst_verdict(Counter(_VERDICTS.get(issue.code, "pass") for issue in issues))
 
 
 class Stored(NamedTuple):
@@ -102,7 +110,7 @@ class StoredResults:
             self._files = [_File(path, stack) for path in files]
             self._stack = stack.pop_all()
         self.issues = (*(issue for file in self._files for issue in file.issues), *self._scan())
-        self.least = worst_verdict(Counter(_VERDICTS[issue.code] for issue in self.issues))
+        self.least = least_of(self.issues)
         return self
 
     def __exit__(self, *_: object) -> None:

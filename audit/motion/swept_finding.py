@@ -40,6 +40,8 @@ def with_sweep(finding: Finding, draft: Draft, moves: Moves) -> Finding:
         rule=judgement.rule if graver else finding.rule,
         undecided=finding.undecided or judgement.undecided,
         reason=finding.reason or judgement.reason or (motion.reason if undecided else None),
+        # What may be hit on the way is another question than what is open as placed.
+        reason_code=None if motion.relation == "indeterminate" else finding.reason_code,
         plan=tuple(draft.stages),
     )
 

@@ -15,7 +15,7 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.manifest import read_manifest
-from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults
+from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults, least_of
 from satcheck.audit.words import is_listed
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -33,9 +33,9 @@ from satcheck.cli.rendering import (
     rendered,
 )
 from satcheck.cli.stated_scene import read_stored, stated_scene
-from satcheck.cli.worlds import INTERRUPTED, Drawing, deliver_assets, tell_assets
+from satcheck.cli.worlds import Drawing, deliver_assets, tell_assets
 from satcheck.report.assets import Asset, AssetsReport, AssetVerdict
-from satcheck.report.report import NOTHING_TO_CHECK, Issue, Report
+from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.words import meant
@@ -146,7 +146,7 @@ def command(
     stored = read_stored(reports[0])
     if isinstance(stored, AssetsReport):
         each = [Stored((asset.file,), (), asset) for asset in stored.assets]
-        return view.assets(each, stored.issues, _least(stored), asset)
+        return view.assets(each, stored.issues, least_of(stored.issues), asset)
     if asset is not None:
         raise click.UsageError(f"--asset: {reports[0]} is the report of one check")
     if folder is not None:
@@ -154,12 +154,6 @@ def command(
             f"--pictures: {reports[0]} is the report of one check: -o picture.png draws it"
         )
     return view.report(stored)
-
-
-def _least(stored: AssetsReport) -> AssetVerdict:
-    """Return what the issues of a report allow at best."""
-    is_open = any(issue.code in (INTERRUPTED, NOTHING_TO_CHECK) for issue in stored.issues)
-    return "incomplete" if is_open else "pass"
 
 
 class _View(NamedTuple):
@@ -203,6 +197,7 @@ class _View(NamedTuple):
         if not len(stored):
             for issue in issues:
                 talk(f"satcheck: {issue_line(issue)}")
+            talk("satcheck: error: there is no asset to draw")
             return exit_codes.ERROR
         worst = min((each.asset for each in stored), key=_rank_to_see)
         if len(stored) > 1:

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from glob import escape
 from heapq import nsmallest
+from itertools import chain
 from math import inf
 from pathlib import PurePath
 from typing import TYPE_CHECKING, TypeVar
@@ -15,6 +16,8 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 from msgspec import Struct, field
 
+from satcheck.audit.batch.check_world import beside_assets
+from satcheck.audit.batch.stored import least_of
 from satcheck.audit.messages import clause, failing
 from satcheck.audit.summary import tool
 from satcheck.audit.words import common_root, counted, rank, with_titles
@@ -94,8 +97,15 @@ def written(
     if form == "json":
         return render_assets(seen.report(), assets, timings=timings)
     if kind_of(form) == "reports":
-        return pieces(assets, form)
+        return pieces(_with_what_is_open(seen.issues, assets), form)
     return render(seen, page)
+
+
+def _with_what_is_open(issues: Iterable[Issue], assets: AssetReports) -> AssetReports:
+    """Return the assets, and one for each issue about all of them that lets nothing pass: a format
+    without a place for these would tell passes alone."""
+    beside = [beside_assets(issue) for issue in issues if least_of([issue]) != "pass"]
+    return AssetReports(lambda: chain(assets, beside), len(assets) + len(beside))
 
 
 def render(seen: Overview, page: Page) -> str:

@@ -391,6 +391,7 @@ def test_a_stored_baseline_without_figures_proves_nothing() -> None:
     accepted = replace(bare, unmeasured=True)
     assert [state(accepted, now) for now in (shallow, unmeasured)] == ["accepted"] * 2
     assert state(accepted, replace(DEEPER, relation="contains")) == "worse"
+    assert state(accepted, replace(DEEPER, undecided="cross-check")) == "undecided"
 
 
 def shell(folder: Path, units: str = "mm") -> None:
@@ -473,3 +474,20 @@ def test_a_slip_is_told_with_what_to_type(
     (tmp_path / "r.json").write_text("{}")
     ran = satcheck("baseline", *words, cwd=tmp_path)
     assert (ran.code, told in ran.err) == (2, True)
+
+
+@pytest.mark.parametrize("also", ["--clearance=1.5", "motion"])
+def test_an_accepted_undecided_pair_does_not_hide_another_question(
+    also: str, tmp_path: Path
+) -> None:
+    shell(tmp_path)
+    satcheck("pot.toml", "-o", "report.json", cwd=tmp_path)
+    satcheck("baseline", "write", "known.json", "report.json", "--undecided", cwd=tmp_path)
+    gate = ["pot.toml", "--baseline", "known.json"]
+    assert satcheck(*gate, cwd=tmp_path).code == 0
+    if also == "motion":  # through the floor of the shell
+        with (tmp_path / "pot.toml").open("a") as scene:
+            scene.write('[[motion]]\nbodies = ["lid"]\ntranslation = [0, 0, -10]\n')
+    else:  # the surfaces are 1 apart
+        gate.append(also)
+    assert satcheck(*gate, cwd=tmp_path).code == 3

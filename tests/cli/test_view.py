@@ -174,3 +174,36 @@ def test_an_option_that_would_have_no_effect_is_refused(
     ran = satcheck("view", stored, *asked)
     assert ran.code == 2
     assert said in ran.err
+
+
+@pytest.mark.parametrize("missing", ["a part", "an asset", "all"])
+def test_a_stored_report_of_a_batch_that_did_not_finish_passes_no_more_than_its_results(
+    folder: Path, missing: str
+) -> None:
+    satcheck("batch", "box.obj", "l_bracket.obj", "-o", "all.jsonl", cwd=folder)
+    results, options = "all.jsonl", list[str]()
+    if missing == "a part":
+        results = "all.jsonl.part"
+        (folder / "all.jsonl").rename(folder / results)
+    elif missing == "an asset":
+        (folder / "all.txt").write_text("box.obj\nl_bracket.obj\nrack.3mf\n")
+        options = ["--manifest", "all.txt"]
+    else:
+        (folder / "all.jsonl").write_text("")
+    assert satcheck("view", results, *options, "-o", "all.json", cwd=folder).code == 3
+    said = {
+        "table": "INCOMPLETE: ",
+        "json": '"verdict": "incomplete"',
+        "junit": 'errors="1"',
+        "markdown": "**incomplete** ",
+        "sarif": '"executionSuccessful": false',
+    }
+    for form, words in said.items():
+        ran = satcheck("view", "all.json", "--format", form, cwd=folder)
+        assert (ran.code, words in ran.out) == (3, True), form
+
+
+def test_where_there_is_no_asset_nothing_is_drawn(folder: Path) -> None:
+    (folder / "all.jsonl").write_text("")
+    ran = satcheck("view", "all.jsonl", "-o", "worst.png", cwd=folder)
+    assert (ran.code, "no asset" in ran.err) == (2, True)
