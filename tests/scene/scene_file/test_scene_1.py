@@ -496,5 +496,5 @@ def test_the_example_of_the_documentation_is_one(tmp_path):
     example = text.partition("```toml\n")[2].partition("```")[0]
     (tmp_path / "finger.obj").write_bytes(files.obj())
     scene = read(tmp_path, example, "toml")
-    assert (len(scene.items), len(scene.rules), len(scene.motions)) == (3, 1, 1)
+    assert (len(scene.items), len(scene.rules), len(scene.motions)) == (2, 1, 1)
     assert scene.issues == ()
