@@ -84,6 +84,8 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
         reason = f"{a} and {b}: the process that measured this pair {error.message}"
         draft.issues.append(Issue(error.code, "warning", None, None, reason))
         checked = CheckedPair(finding, draft=draft)
+    if checked.draft is None:  # it failed, and what was proven before it stands
+        checked = replace(checked, finding=finding)
     steps = STEPS_OF_PAIR + STEPS_OF_TRIANGLE * pair.triangles
     return checked, draft.work - before + steps
 

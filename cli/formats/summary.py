@@ -230,10 +230,18 @@ def _open(report: Report) -> Iterator[str]:
         yield "--accuracy exact decides it"
     elif _depends_on_holes(report, undecided):
         yield "close the holes, or give --allow-open if they are meant to be open"
+    elif any(map(_has_no_thickness, asked)):
+        yield "--max-depth, or max_depth of a rule, limits what has no thickness"
     elif any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
         yield "a larger --budget may decide it"
     else:
         yield "--explain shows the steps"
+
+
+def _has_no_thickness(finding: Finding) -> bool:
+    return finding.undecided == "limit" and any(
+        stage.stage == "thickness" and stage.result == "not known" for stage in finding.plan
+    )
 
 
 def _depends_on_holes(report: Report, findings: Sequence[Finding]) -> bool:
