@@ -226,7 +226,7 @@ def test_the_ball_is_gone_where_the_overlap_has_ended(opened: Opened) -> None:
 def test_the_list_has_the_figures_in_the_order_of_the_table(opened: Opened) -> None:
     page = opened(*SCENES["rack"])
     items = page.locator("#findings li")
-    assert re.search(r"penetrating, .*depth \d", items.first.inner_text())
+    assert re.search(r"penetrating, thickness \d.* to pull apart", items.first.inner_text())
     names = page.evaluate("report.findings.map((each) => each.names.join(' and '))")
     shown = [items.nth(k).locator("div").inner_text() for k in range(items.count())]
     assert shown == names
