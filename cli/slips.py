@@ -40,21 +40,11 @@ MOST_FILES = 8
 MOST_PATHS = 3
 _PATTERN = frozenset("*?[")
 # Options about the document, not about the answer, and about many assets.
-_DELIVERY = (
-    *(
-        "form",
-        "outputs",
-        "resume",
-        "shard",
-        "manifest",
-        "quiet",
-        "top",
-        "since",
-        "exclude",
-        "color",
-        "exit_zero",
-    ),
-    "limit",
+_DELIVERY = frozenset(
+    (
+        *("form", "outputs", "quiet", "top", "color", "exit_zero", "limit"),
+        *("resume", "shard", "manifest", "since", "exclude"),
+    )
 )
 # What other programs call our options: a name without dashes, and what it is here.
 _ALIASES: Mapping[str, tuple[str, ...]] = {
