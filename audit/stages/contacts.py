@@ -32,14 +32,13 @@ def find_contacts(draft: Draft) -> None:
         draft.contacts = Contacts()
         return
     pair = draft.pair
-    intersection = core.surface_intersection(pair.a.surface(), pair.b.surface(), MAX_TRIANGLE_PAIRS)
-    if not intersection.complete:
+    found = contacts_of(pair.a.surface(), pair.b.surface(), pair.settings.contact_points)
+    if found is None:
         reason = f"more than {MAX_TRIANGLE_PAIRS:,} pairs of triangles meet"
         draft.record("contacts", "too many", reason)
         draft.complain("too-many-contacts", None, f"{pair.a.id} and {pair.b.id}: {reason}")
         return
-    draft.contacts = _listed(intersection, pair.settings.contact_points)
-    totals = draft.contacts.totals
+    draft.contacts, totals = found, found.totals
     draft.record(
         "contacts",
         "found" if totals.triangle_pairs else "none",
@@ -48,8 +47,12 @@ def find_contacts(draft: Draft) -> None:
     )
 
 
-def _listed(intersection: core.SurfaceIntersection, limit: int) -> Contacts:
-    """limit: points in all lists together, and triangle pairs. Curves and patches come whole."""
+def contacts_of(a: core.Surface, b: core.Surface, limit: int) -> Contacts | None:
+    """Return where the surfaces meet; None: too many triangles do. limit: points in all lists
+    together, and triangle pairs. Curves and patches come whole."""
+    intersection = core.surface_intersection(a, b, MAX_TRIANGLE_PAIRS)
+    if not intersection.complete:
+        return None
     curves, patches, points, pairs = (
         intersection.curves,
         intersection.patches,

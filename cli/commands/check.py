@@ -255,9 +255,6 @@ def command(
     if failed and len(scene.bodies) < 2 and to.forms == {"table"}:
         return exit_codes.ERROR  # every pair would be an empty row, and the error is told
     scene, poses = _placed(scene, inputs)
-    if poses is None and pictures:
-        # Where the surfaces cross, in checks that can say so.
-        options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     settings = {**options, **inputs.limits}
     result: Report | SamplesReport
     if poses is None:

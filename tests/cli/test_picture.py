@@ -182,7 +182,7 @@ def test_figures_of_a_finding_are_in_the_frame_of_the_page() -> None:
     names = [str(SAMPLES / name) for name in ("l_bracket.obj", "peg_in_arm.ply")]
     scene = load_scene(names)
     (finding,) = check(scene, Settings(components=True, contacts=True)).findings
-    data = picture_data(check(scene, Settings(components=True, contacts=True)), scene)
+    data = picture_data(check(scene, Settings(components=True)), scene)
     (shown,) = data["findings"]
     corners = np.concatenate([np.asarray(body.world_mesh().vertices) for body in scene.bodies])
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
@@ -202,6 +202,16 @@ def test_figures_of_a_finding_are_in_the_frame_of_the_page() -> None:
     off = (high - low).max() / STEPS
     assert points[: len(curve.points)] == pytest.approx(np.array(curve.points) - middle, abs=off)
     assert sum(shown["lines"]) == len(points)
+
+
+def test_a_page_lists_the_worst_findings_and_counts_the_others(tmp_path: Path) -> None:
+    """Fifty copies of a body at one place have 1,225 pairs."""
+    box = 'shape = {type = "box", size = [1, 1, 1]}'
+    bodies = "\n".join(f'[[bodies]]\nid = "b{k}"\n{box}' for k in range(50))
+    (tmp_path / "scene.toml").write_text(f'schema = "satcheck.scene/1"\n{bodies}')
+    scene = load_scene([str(tmp_path / "scene.toml")])
+    data = picture_data(check(scene), scene)
+    assert (len(data["findings"]), data["unlisted"]) == (1000, 225)
 
 
 def test_what_cannot_be_drawn_is_told() -> None:

@@ -25,7 +25,7 @@ from satcheck.scene.statics import up_axes
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     import numpy.typing as npt
 
@@ -34,13 +34,11 @@ if TYPE_CHECKING:
     from satcheck.cli.formats.picture.viewpoint import Viewpoint
     from satcheck.report.components import Component
     from satcheck.report.report import Finding, Issue, Report
-    from satcheck.report.values import Vector
     from satcheck.scene import Scene
 
     Floats = npt.NDArray[np.float64]
-    Line = Sequence[Vector] | Floats
-    Lines = Sequence[Line]
 
+MOST_FINDINGS = 1000  # the worst; the page counts those after them
 CLOSELY = 50  # findings, the worst first, for which rays choose the viewpoint
 ROOM = 1_800_000  # characters for meshes, of a page that should be no larger than 2 MB
 MOST_COMPONENTS = 100  # of a finding; JSON has them all
@@ -55,7 +53,8 @@ def picture_data(
     scene = without_regions(scene)
     bodies = list(scene.bodies) if can_be_drawn(scene) else []
     moments = (moments or moments_of(report, scene)) if bodies else Moments()
-    findings = listed(report)
+    every = listed(report)
+    findings = every[:MOST_FINDINGS]
     met = frozenset(id_ for finding in findings for id_ in (finding.a, finding.b))
     drawn = geometry(bodies, met, parts or {}, ROOM, moments.placed)
     numbers = {body.id: k for k, body in enumerate(bodies)}
@@ -63,20 +62,22 @@ def picture_data(
     simpler = f"Simplified: {others} without findings, to {drawn.simplified}"
     up = up_of(scene)
     shows = Shows(report, scene, moments, up)
-    rims: list[Lines] = []
+    lines: list[list[Floats]] = []
     shown = []
     for rank, finding in enumerate(findings):
         stated = _stated(finding, report, drawn.middle)
         if {finding.a, finding.b} <= numbers.keys():
             seen = shows.of(finding, closely=rank < CLOSELY)
-            rims.append(seen.marks.rim.lines if seen.marks.rim else [])
+            rims = seen.marks.rim.lines if seen.marks.rim else []
+            lines.append([*seen.marks.lines, *rims])
             stated |= _drawn(seen, numbers, drawn.middle)
             if moments.note:  # several poses
                 stated["measured"] += f", {moments.names[seen.moment]}" if moments.names else ""
         else:
-            rims.append([])
+            rims = []
+            lines.append([])
             stated |= {"a": numbers.get(finding.a), "b": numbers.get(finding.b)}
-        shown.append(stated | _lines(finding, rims[-1], drawn.middle))
+        shown.append(stated | _lines(lines[-1], len(rims), drawn.middle))
     return {
         "title": headline(report, moments),
         "summary": summary_line(report),
@@ -86,7 +87,8 @@ def picture_data(
         "view": _view(of_all(bodies, up), drawn.middle) if bodies else None,
         "simplified": simpler if drawn.simplified else "",
         "findings": shown,
-        "points": _packed_points(findings, rims),
+        "unlisted": len(every) - len(findings),
+        "points": _packed_points(lines),
         "states": {
             numbers[id_]: state for id_, state in states_of(report).items() if id_ in numbers
         },
@@ -163,16 +165,6 @@ def require_drawable(scene: Scene) -> None:
         raise SatcheckError("not-drawable", "there is no picture: coordinates are too large for it")
 
 
-def lines_of(finding: Finding) -> list[Line]:
-    """Where the surfaces cross, and the outlines of patches in which both lie; a closed line
-    repeats its start."""
-    if finding.contacts is None:
-        return []
-    curves = [[*c.points, *c.points[: c.closed]] for c in finding.contacts.curves]
-    outlines = (outline for patch in finding.contacts.patches for outline in patch.outlines)
-    return [*curves, *([*outline, outline[0]] for outline in outlines)]
-
-
 def _counted(issues: Sequence[Issue]) -> str:
     """`1 error, 3 warnings`."""
     counts = Counter(issue.severity for issue in issues)
@@ -181,15 +173,13 @@ def _counted(issues: Sequence[Issue]) -> str:
     )
 
 
-def _points(finding: Finding, rims: Lines) -> Floats:
-    return np.array([point for line in (*lines_of(finding), *rims) for point in line]).reshape(
-        -1, 3
-    )
+def _points(lines: Sequence[Floats]) -> Floats:
+    return np.concatenate([np.empty((0, 3)), *lines])
 
 
-def _packed_points(findings: list[Finding], rims: list[Lines]) -> str:
+def _packed_points(lines: Iterable[Sequence[Floats]]) -> str:
     """Of the lines of all findings, within the box of each."""
-    points = [np.empty((0, 3)), *map(_points, findings, rims)]
+    points = [np.empty((0, 3)), *map(_points, lines)]
     boxes = [np.broadcast_to(_box(each), (len(each), 2, 3)) for each in points]
     return packed_points(np.concatenate(points), np.concatenate(boxes))
 
@@ -199,13 +189,13 @@ def _box(points: Floats) -> Floats:
     return np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
 
 
-def _lines(finding: Finding, rims: Lines, middle: Floats) -> dict[str, Any]:
+def _lines(lines: Sequence[Floats], rims: int, middle: Floats) -> dict[str, Any]:
     """lines: how many of `points` each has, which stand in the order of the findings. rims: how
     many of the lines, the last ones, are those of a hole. box: of all these points."""
     return {
-        "lines": [*map(len, lines_of(finding)), *map(len, rims)],
-        "rims": len(rims),
-        "box": [_relative(corner, middle) for corner in _box(_points(finding, rims))],
+        "lines": [*map(len, lines)],
+        "rims": rims,
+        "box": [_relative(corner, middle) for corner in _box(_points(lines))],
     }
 
 

@@ -58,7 +58,8 @@ function count() {
   const all = report.findings.length, left = [...element("findings").children].filter((item) => !item.hidden).length;
   const text = element("search").value, bodies = text ? bodiesNamed(text).length : report.bodies.ids.length;
   const findings = `${text ? `${left} of ` : ""}${all} finding${all === 1 ? "" : "s"}`;
-  element("count").textContent = `${findings}, ${bodies} ${bodies === 1 ? "body" : "bodies"}`;
+  const unlisted = report.unlisted ? ` (${report.unlisted.toLocaleString("en")} less severe ones are not listed)` : "";
+  element("count").textContent = `${findings}${unlisted}, ${bodies} ${bodies === 1 ? "body" : "bodies"}`;
 }
 
 function listComponents(now, choose) {

@@ -19,7 +19,6 @@ from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, with
 from satcheck.cli.formats.picture.data import (
     drawn_finding,
     headline,
-    lines_of,
     require_drawable,
     up_of,
 )
@@ -36,7 +35,6 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from satcheck.cli.formats.picture.data import Line
     from satcheck.cli.formats.picture.moments import Moments
     from satcheck.cli.formats.picture.raster import Colour
     from satcheck.cli.formats.picture.shown import Shown
@@ -127,7 +125,7 @@ def image_of(scene: Scene, shown: Shown, view: View, size: tuple[int, int]) -> P
     kinds, finding = list(KINDS), shown.finding
     if len(scene.bodies) > CROWD:
         kinds[OTHER] = kinds[OTHER]._replace(alpha=FAINT)
-    lines = [(line, CURVE) for line in lines_of(finding)]
+    lines = [(line, CURVE) for line in shown.marks.lines]
     lines += [(line, RIM) for line in (shown.marks.rim.lines if shown.marks.rim else [])]
     overlap = OVERLAP if finding.at_rest in OVERLAPS else None
     image = _image(_meshes(scene, shown), lines, kinds, view, size, overlap)
@@ -141,7 +139,7 @@ def image_of_bodies(bodies: Iterable[Body], view: View, size: tuple[int, int]) -
 
 def _image(
     meshes: Iterable[tuple[Mesh, int]],
-    lines: Iterable[tuple[Line, int]],
+    lines: Iterable[tuple[Floats, int]],
     kinds: list[Kind],
     view: View,
     size: tuple[int, int],

@@ -9,6 +9,8 @@ import numpy as np
 from satcheck import core
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy.typing as npt
 
     from satcheck.core import Mesh
@@ -44,13 +46,14 @@ class Rim(NamedTuple):
         return turns
 
 
-def deciding_rim(finding: Finding, pair: list[Body]) -> Rim | None:
-    """None: no hole decides how the bodies relate. pair: as placed."""
+def deciding_rim(
+    finding: Finding, pair: list[Body], surface: Callable[[Body], core.Surface]
+) -> Rim | None:
+    """None: no hole decides how the bodies relate. pair: as placed. surface: of one as placed."""
     if finding.undecided not in _BY_HOLES or not any(body.file.health.holes for body in pair):
         return None
     meshes = [body.world_mesh() for body in pair]
-    sides = [core.Surface(m, b.file.health.solid) for m, b in zip(meshes, pair, strict=True)]
-    hole = core.mesh_relation(*sides).hole
+    hole = core.mesh_relation(*map(surface, pair)).hole
     if hole is None:
         return None
     side = 0 if hole.of_a else 1

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from satcheck import core
+from satcheck.audit.stages.contacts import contacts_of
 from satcheck.audit.words import NEGLIGIBLE, is_hit, with_unit
 from satcheck.cli.formats.picture.marks import sphere_around
 from satcheck.cli.formats.picture.rims import deciding_rim
@@ -17,6 +18,8 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
     from satcheck.cli.formats.picture.moments import Moments
@@ -31,6 +34,7 @@ if TYPE_CHECKING:
     Kind = Literal["a", "b", "arrow", "gap", "ball", "hit", "hole"]
 
 LONGEST_NAME = 40
+MOST_POINTS = 20_000  # of the lines of a pair
 # A body is named at a point of its surface that is no farther from the middle than this share of
 # the radius; of so many of its points at most.
 _WITHIN, _POINTS = 0.7, 4000
@@ -46,12 +50,14 @@ class Label(NamedTuple):
 
 class Marks(NamedTuple):
     """way: start and translation of the arrow. gap: the nearest points of A and B. hit: where
-    moving bodies meet first. rim: of the hole that decides."""
+    moving bodies meet first. rim: of the hole that decides. lines: where the surfaces cross, and
+    the outlines of patches in which both lie; a closed line repeats its start."""
 
     way: tuple[Floats, Floats] | None
     gap: tuple[Floats, Floats] | None
     hit: Floats | None
     rim: Rim | None = None
+    lines: Sequence[Floats] = ()
 
     def points(self) -> list[Floats]:
         """That are to be seen."""
@@ -81,23 +87,28 @@ class Shows:
         self._planar = report.settings.planar is not None
         self._viewpoints = Viewpoints(up)
         self._scenes: dict[int, Scene] = {}
+        self._surfaces: dict[str, core.Surface] = {}
 
     def scene_at(self, moment: int) -> Scene:
         if moment not in self._scenes:
             self._scenes = {moment: self._moments.scene_at(self._scene, moment)}
+            self._surfaces = {}
         return self._scenes[moment]
 
     def of(self, finding: Finding, *, closely: bool = True) -> Shown:
-        """closely: rays choose the viewpoint, holes are searched, and names stand on bodies."""
+        """closely: rays choose the viewpoint, holes and the lines where surfaces meet are searched,
+        and names stand on bodies."""
         moment = self._moments.of.get(finding.id, 0)
         bodies = self.scene_at(moment).bodies
         by_id = {body.id: body for body in bodies}
         pair = [by_id[finding.a], by_id[finding.b]]
         marks = marks_of(finding, pair)
         if closely and not self._planar:
-            marks = marks._replace(rim=deciding_rim(finding, pair))
+            meet = finding.at_rest == "touching" or finding.at_rest in OVERLAPS
+            lines = _meeting_lines(*map(self._surface, pair)) if meet else ()
+            marks = marks._replace(rim=deciding_rim(finding, pair, self._surface), lines=lines)
         if closely and moment:
-            marks = marks._replace(gap=_gap_then(finding, pair))
+            marks = marks._replace(gap=self._gap_then(finding, pair))
         place, across = _place(finding, pair, marks), self._across(marks, finding, moment)
         view = self._viewpoints.of_pair(
             bodies,
@@ -113,6 +124,20 @@ class Shows:
             *self._figures(finding, marks, view.towards),
         ]
         return Shown(finding, moment, pair, place, marks, labels, view)
+
+    def _surface(self, body: Body) -> core.Surface:
+        """As it stands at the moment of the last scene."""
+        if body.id not in self._surfaces:
+            self._surfaces[body.id] = core.Surface(body.world_mesh(), body.file.health.solid)
+        return self._surfaces[body.id]
+
+    def _gap_then(self, finding: Finding, pair: list[Body]) -> tuple[Floats, Floats] | None:
+        """At the moment of the pair, for which the finding has no points."""
+        if finding.at_rest in OVERLAPS or is_hit(finding):
+            return None
+        a, b = map(self._surface, pair)
+        nearest = core.mesh_distance(a, b)
+        return np.array(nearest.witness_a), np.array(nearest.witness_b)
 
     def _across(self, marks: Marks, finding: Finding, moment: int) -> Floats | None:
         """What the picture looks across: the way out, the gap, or how bodies moved before a hit."""
@@ -229,13 +254,13 @@ def _gap(finding: Finding) -> tuple[Floats, Floats] | None:
     return np.array(finding.witness.a), np.array(finding.witness.b)
 
 
-def _gap_then(finding: Finding, pair: list[Body]) -> tuple[Floats, Floats] | None:
-    """At the moment of the pair, for which the finding has no points."""
-    if finding.at_rest in OVERLAPS or is_hit(finding):
-        return None
-    a, b = (core.Surface(body.world_mesh(), body.file.health.solid) for body in pair)
-    nearest = core.mesh_distance(a, b)
-    return np.array(nearest.witness_a), np.array(nearest.witness_b)
+def _meeting_lines(a: core.Surface, b: core.Surface) -> list[Floats]:
+    contacts = contacts_of(a, b, MOST_POINTS)
+    if contacts is None:
+        return []
+    curves = [[*curve.points, *curve.points[: curve.closed]] for curve in contacts.curves]
+    outlines = (outline for patch in contacts.patches for outline in patch.outlines)
+    return [np.array(line) for line in (*curves, *([*line, line[0]] for line in outlines))]
 
 
 def _hit(finding: Finding) -> Floats | None:

@@ -129,10 +129,12 @@ class Viewpoints:
             beside = _BESIDE * radius * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
             starts = place + beside @ rows[:2]
             own = [_crossings(self._corners(body), starts, rows) for body in pair]
-            on_ray = np.flatnonzero(_on_ray(boxes, starts, rows)).tolist()
-            hiding = [_crossings(self._corners(others[k]), starts, rows)[0] for k in on_ray]
+            hiding = 0.0
+            for k in np.flatnonzero(_on_ray(boxes, starts, rows)).tolist():
+                if hiding < _MOST_OTHERS:
+                    hiding += _crossings(self._corners(others[k]), starts, rows)[0]
             cost = costs[number] + _SURFACE * sum(count for count, _ in own)
-            cost += _OTHER * min(sum(hiding), _MOST_OTHERS)
+            cost += _OTHER * min(hiding, _MOST_OTHERS)
             found.append((float(cost), number, max(last for _, last in own)))
         _, number, last = min(found, key=lambda each: each[0])
         return number, last
