@@ -8,6 +8,7 @@ to the pairs after it. Pairs that come after the budget is spent have no figures
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Sequence
 
@@ -20,7 +21,7 @@ from satcheck.audit.finding import measure
 from satcheck.audit.pair import Pair
 from satcheck.audit.parallel import in_parallel
 from satcheck.audit.planner import FOR_FAILURES
-from satcheck.audit.settings import THICKNESS_SHARE, WORK_PER_SECOND, Settings
+from satcheck.audit.settings import THICKNESS_SHARE, Settings
 from satcheck.audit.stages.thickness import why_not_thick
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.report.report import Finding, Issue
@@ -70,13 +71,11 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
     """Return the pair with its figures, and the steps that they took. share: the most steps of the
     searches."""
     pair, before = draft.pair, draft.work
-    a, b, request, settings = pair.a.id, pair.b.id, pair.request, pair.settings
+    a, b, request = pair.a.id, pair.b.id, pair.request
     effects = [e for e in request.if_failing if e != "thickness" or why_not_thick(pair) is None]
-    if share < (1 + THICKNESS_SHARE) * settings.work:
-        seconds = share / (1 + THICKNESS_SHARE) / WORK_PER_SECOND
-        settings = replace(settings, budget=seconds)
+    work = min(pair.work, math.ceil(share / (1 + THICKNESS_SHARE)))
     by = {**request.by, **dict.fromkeys(effects, FOR_FAILURES)}
-    draft.pair = replace(pair, settings=settings, request=replace(request, by=by))
+    draft.pair = replace(pair, work=work, request=replace(request, by=by))
     try:
         with risky_step(f"measuring {a!r} and {b!r}"):
             checked = guarded(lambda: CheckedPair(measure(draft), draft=draft), draft)

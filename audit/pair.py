@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from satcheck.audit.body import PlacedBody, diagonal, largest_coordinate
-from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
+from satcheck.audit.settings import ACCURACIES, THICKNESS_SHARE, Accuracy, Settings
 from satcheck.core.conventions import axes_of
 from satcheck.core.steps import step_in_words
 from satcheck.report.request import Request
@@ -46,7 +46,8 @@ class Pair(Struct, eq=False):
     may be off: half the tolerance, or the surface tolerance of the body if that is more. closer:
     with --planar, how much closer (or deeper) the bodies may be than their polygons, which lie
     within them; else 0.0. moves: the relative motion of the bodies; None: they do not move.
-    alone: no other pair needs these bodies.
+    alone: no other pair needs these bodies. work: the most steps of a search of the depth; 0: those
+    of the settings.
     """
 
     a: PlacedBody
@@ -57,12 +58,14 @@ class Pair(Struct, eq=False):
     peers: Peers | None = None
     moves: Moves | None = None
     alone: bool = False
+    work: int = 0
     tolerance: float = 0.0  # __post_init__ sets these four
     gap_limit: float = 0.0
     off: tuple[float, float] = (0.0, 0.0)
     closer: float = 0.0
 
     def __post_init__(self) -> None:
+        self.work = self.work or self.settings.work
         asked = self.request.tolerance
         self.tolerance = tolerance = self._resolution() if asked is None else asked
         own_a, own_b = self.a.surface_tolerance, self.b.surface_tolerance
@@ -82,6 +85,11 @@ class Pair(Struct, eq=False):
             size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
         written = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
         return max(written, self.a.body.file.deviation + self.b.body.file.deviation)
+
+    @property
+    def thickness_work(self) -> int:
+        """Return the most steps of a search of the thickness."""
+        return math.ceil(THICKNESS_SHARE * self.work)
 
     @property
     def excuses(self) -> bool:

@@ -9,6 +9,7 @@ from functools import cache, lru_cache
 from typing import Any, get_args, get_type_hints
 
 from msgspec import ValidationError, convert
+from msgspec.structs import fields
 
 from satcheck.core.conventions import LARGEST_LENGTH, axis_across
 from satcheck.core.errors import SatcheckError
@@ -62,8 +63,10 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
     timings: bool = True
 
     def __post_init__(self) -> None:
-        for name, kind in _kinds().items():
+        for name, (kind, default) in _kinds().items():
             value = getattr(self, name)
+            if value is default:
+                continue
             plain = value.item() if hasattr(value, "item") else value  # a numpy scalar
             try:
                 convert(plain, kind)
@@ -95,11 +98,6 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
         return math.ceil(self.budget * WORK_PER_SECOND)
 
     @property
-    def thickness_work(self) -> int:
-        """The most steps of one search of a thickness."""
-        return math.ceil(THICKNESS_SHARE * self.work)
-
-    @property
     def across(self) -> int:
         """The axis perpendicular to the plane of the check; -1: the check is in space."""
         return -1 if self.planar is None else axis_across(self.planar)
@@ -127,9 +125,10 @@ def documentation(name: str) -> str:
 
 
 @cache
-def _kinds() -> dict[str, Any]:
-    """The type of each setting, with its limits."""
-    return get_type_hints(Settings, include_extras=True)
+def _kinds() -> dict[str, tuple[Any, Any]]:
+    """Return the type of each setting, with its limits, and its default."""
+    kinds = get_type_hints(Settings, include_extras=True)
+    return {field.name: (kinds[field.name], field.default) for field in fields(Settings)}
 
 
 def _reason(error: ValidationError, kind: Any) -> str:

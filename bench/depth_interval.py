@@ -121,7 +121,7 @@ def compare_thickness(pairs: list[Pair], width: float) -> None:
         depth = partial(core.search_depth, a, b, upper=upper, lower=0.0, width=width)
         depths.append(least_seconds(partial(depth, work=settings.work)))
         thickness = partial(core.search_thickness, a, b, width=width)
-        thicknesses.append(least_seconds(partial(thickness, work=settings.thickness_work)))
+        thicknesses.append(least_seconds(partial(thickness, work=pair.thickness_work)))
     say("| of pairs of solids | median ms | 95 % ms | longest ms |")
     say("|---|---|---|---|")
     both = [one + other for one, other in zip(depths, thicknesses, strict=True)]

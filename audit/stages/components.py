@@ -53,7 +53,7 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
     pair."""
     a, b, width = pair.a.surface(), pair.b.surface(), pair.settings.width
     components = overlap.components
-    work = pair.settings.thickness_work
+    work = pair.thickness_work
     for place, hull in enumerate(core.component_balls(a, b, overlap)):
         component, ball = components[place], Ball(hull.lower, hull.upper, hull.centre)
         is_open = ball.upper - ball.lower > width * ball.upper

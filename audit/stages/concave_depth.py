@@ -66,7 +66,7 @@ def _searched(draft: Draft, lower: float, upper: float) -> tuple[float, float, V
     """Bounds and a way out that are narrow enough, also to decide a limit of the depth, as far as
     the budget goes."""
     pair = draft.pair
-    work, width = pair.settings.work, pair.settings.width
+    work, width = pair.work, pair.settings.width
     interval = search(draft, lower, upper)
     way_out, upper = interval.way_out, min(upper, interval.bound)
     while interval.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, interval):
@@ -103,7 +103,7 @@ def search(
             upper=upper,
             lower=min(lower, upper),
             width=pair.settings.width if width is None else width,
-            work=pair.settings.work if work is None else work,
+            work=pair.work if work is None else work,
             across=pair.settings.across,
             limit=limit,
             progress=progress,

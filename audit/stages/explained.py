@@ -115,7 +115,7 @@ def _fit(pair: Pair) -> Literal["deeper", "thin", "fit"] | None:
     """Return how the faces of the bodies fit at the tolerance; None: they do not decide it."""
     if pair.settings.across >= 0:  # the faces across the axis of prisms do not count
         return None
-    work = min(pair.settings.thickness_work, FIT_WORK + FIT_WORK_PER_TRIANGLE * pair.triangles)
+    work = min(pair.thickness_work, FIT_WORK + FIT_WORK_PER_TRIANGLE * pair.triangles)
     return core.fit_by_faces(pair.a.surface(), pair.b.surface(), pair.tolerance, work)
 
 
@@ -153,7 +153,7 @@ def reaching(pair: Pair) -> tuple[Explained, str] | None:
         interval = _search(pair, pair.a, pair.b, off, limit, prove=False)
         reaches = None if interval.lower <= limit < interval.upper else interval.lower > limit
         if reaches is None and pair.settings.across < 0:
-            work = pair.settings.thickness_work
+            work = pair.thickness_work
             reaches = core.reaches_deeper(body.surface().mesh, other.surface(), most, work)
         if reaches:
             return "not excused", f"a thin part of {body.id} reaches more than {most:.3g} deep"
@@ -198,7 +198,7 @@ def _search(
             a.surface(),
             b.surface(),
             width=0.0,
-            work=pair.settings.thickness_work if work is None else work,
+            work=pair.thickness_work if work is None else work,
             less_a=off[0],
             less_b=off[1],
             limit=limit,

@@ -53,7 +53,7 @@ def measure_thickness(draft: Draft) -> None:
         draft.record(STAGE, "not known", why_not)
         draft.reason = draft.reason or f"no thickness: {why_not}"
         return
-    work, limit = pair.settings.thickness_work, pair.request.max_thickness
+    work, limit = pair.thickness_work, pair.request.max_thickness
     if draft.ahead is None:
         interval = first_search(pair)
         draft.record(STAGE, *_outcome_of(interval))
@@ -75,7 +75,7 @@ def measure_thickness(draft: Draft) -> None:
 
 def first_search(pair: Pair, go_on: Callable[[], None] | None = None) -> core.ThicknessInterval:
     """To the width of the settings. go_on: called now and then; what it raises ends the search."""
-    return _search(pair, pair.settings.width, pair.settings.thickness_work, None, go_on)
+    return _search(pair, pair.settings.width, pair.thickness_work, None, go_on)
 
 
 def _search(

@@ -209,7 +209,7 @@ class _MeshMaker(Maker):
         if not (self.placed.a.world.solid and self.placed.b.world.solid):
             return None
         surfaces = self.pair.a.surface(), self.pair.b.surface()
-        return cover(*surfaces, lower, self.pair.settings.work)
+        return cover(*surfaces, lower, self.pair.work)
 
     def _cells(self) -> Cells | None:
         """Certify the thickness of an overlap that is thinner than it is deep."""
