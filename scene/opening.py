@@ -128,10 +128,14 @@ _status = os.stat
 
 class FilesRead:
     """The files that a check has read or looked for, in that order. `folder/` stands for the names
-    of the folders in it."""
+    of the folders in it.
+
+    digests: the SHA-256, hex, of the bytes of those of which it was made as they were read.
+    """
 
     def __init__(self) -> None:
         self._signatures: dict[str, Signature] = {}
+        self.digests: dict[str, str] = {}
         self._lost = False
         self._began_ns = time.time_ns()
 
@@ -174,6 +178,11 @@ def note(location: str | Path) -> None:
     """location: of a file that the answer depends on, even if it is not there."""
     for listener in _listening:
         listener.add(str(location))
+
+
+def _note_digest(location: StrPath, digest: str) -> None:
+    for listener in _listening:
+        listener.digests[str(location)] = digest
 
 
 def note_folders_in(folder: Path) -> None:
@@ -463,6 +472,8 @@ def open_file(
         raise _unreadable(error) from None
     _refuse_large(size, most)
     digest = hashlib.sha256(data).hexdigest() if allowed.hashed else None
+    if digest is not None:
+        _note_digest(location, digest)
     if reader.text == "plain" and not _is_binary_stl(size, data):
         unmarked = _without_mark(data)
         size, data = size + len(unmarked) - len(data), unmarked

@@ -6,18 +6,19 @@ import json
 import os
 import shutil
 import sys
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from satcheck.audit.batch import slot_server
-from satcheck.audit.batch.key import digest
+from satcheck.audit.batch.key import digest, inputs_of
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.run import run
 from satcheck.audit.batch.slot_server import Answer, Chunk, answers_in, request_of, serve
+from satcheck.report.assets import InputFile
 from satcheck.scene import mesh_files
 from satcheck.scene.files.reading_children import ReadingChildren
 from satcheck.scene.mesh_files import KnownMeshes
@@ -304,12 +305,12 @@ def test_a_file_that_changes_during_its_check_is_checked_again(
 ) -> None:
     world = (copied("box.obj"),)
 
-    def late(name: str) -> str | None:
+    def late(names: Iterable[str], digest: Callable[[str], str | None]) -> tuple[InputFile, ...]:
         copied("kettle.obj", "box.obj")
-        return digest(name)
+        return inputs_of(names, digest)
 
     with monkeypatch.context() as context:
-        context.setattr("satcheck.audit.batch.key.digest", late)
+        context.setattr("satcheck.audit.batch.slot_server.inputs_of", late)
         assert checked([world]) == [world]
     assert checked([world]) == [world]
     assert checked([world]) == []
