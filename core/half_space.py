@@ -136,13 +136,6 @@ def heights_of_shape(plane: Plane, image: ShapeImage) -> tuple[Height, Height]:
     return extreme(-1), extreme(1)
 
 
-def least_height(plane: Plane, image: ShapeImage | None, points: NDArray[np.float64]) -> Height:
-    """Of a curved shape, or of a mesh with these vertices."""
-    if image is None:
-        return heights_of_points(plane, points)[0]
-    return heights_of_shape(plane, image)[0]
-
-
 def gap_of_planes(a: Plane, b: Plane) -> int | None:
     """The sign of the gap of two half spaces that face each other; None: they share a region
     without end, somewhere."""
