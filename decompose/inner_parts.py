@@ -41,7 +41,7 @@ def _inner_part(part: Polytope, solid: Surface, deadline: Deadline) -> Polytope 
     deadline.check()
     bodies = [_largest_inside(part.to_mesh(), solid)]
     region = free_region(part, solid, deadline)
-    if region is not part:
+    if region is not None:
         bodies.append(_largest_inside(region.to_mesh(), solid))
     inside = [body for body in bodies if body is not None]
     return max(inside, key=lambda body: body.to_mesh().topology().volume, default=None)

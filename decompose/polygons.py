@@ -36,17 +36,6 @@ def halves(polygon: Polygon, above: list[float]) -> tuple[Polygon, Polygon]:
     return lower, upper
 
 
-def common_part(polygon: Polygon, planes: Iterable[Plane], depth: float) -> Polygon:
-    """The part below all planes; empty if no point is more than `depth` below all of them."""
-    for plane in planes:
-        above = heights(polygon, plane)
-        if min(above) >= -depth:
-            return []
-        if max(above) > 0.0:
-            polygon = halves(polygon, above)[0]
-    return polygon
-
-
 def without(
     polygon: Polygon, planes: Iterable[Plane], slack: float
 ) -> tuple[Polygon, list[Polygon]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
 from satcheck.core import Mesh, Surface
@@ -10,9 +9,7 @@ from satcheck.decompose import DecompositionError, computation, decompose, error
 from satcheck.decompose.error_bounds import missing_error
 from satcheck.decompose.errors import NEVER, Deadline
 from satcheck.decompose.free_region import free_region
-from satcheck.decompose.half_spaces import around
 from satcheck.decompose.inner_parts import inner_parts
-from satcheck.decompose.obstacles import surface_inside
 
 OVER = Deadline(-1.0)
 
@@ -28,13 +25,10 @@ def test_it_is_over_or_it_is_not() -> None:
 def test_every_long_step_looks_at_it(l_shape: Mesh) -> None:
     mesh = l_shape
     hull, surface = mesh.convex_hull(), Surface(mesh, True)
-    body = around(np.asarray(hull.vertices), np.asarray(hull.triangles))
-    triangles = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
     steps = (
         lambda: missing_error(mesh, [hull], OVER),
         lambda: inner_parts([hull], surface, OVER),
         lambda: free_region(hull, surface, OVER),
-        lambda: surface_inside(triangles, body, OVER),
     )
     for step in steps:
         with pytest.raises(DecompositionError):

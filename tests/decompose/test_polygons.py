@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from satcheck.decompose.polygons import Plane, Polygon, common_part, halves, heights, without
+from satcheck.decompose.polygons import Plane, Polygon, halves, heights, without
 
 SQUARE: Polygon = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]
 
@@ -55,14 +55,3 @@ def test_what_is_inside_and_the_rest_are_the_whole(seed: int) -> None:
 def test_a_polygon_above_some_plane_stays_whole() -> None:
     planes: list[Plane] = [((1.0, 0.0, 0.0), 0.5), ((0.0, 0.0, -1.0), -1.0)]
     assert without(SQUARE, planes, 0.0) == ([], [SQUARE])
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_the_common_part_is_what_is_inside(seed: int) -> None:
-    planes = random_planes(3, seed)
-    inside, _ = without(SQUARE, planes, 0.0)
-    assert area(common_part(SQUARE, planes, 0.0)) == pytest.approx(area(inside), abs=1e-15)
-
-
-def test_a_common_part_that_only_touches_is_empty() -> None:
-    assert common_part(SQUARE, [((0.0, 0.0, -1.0), 0.0)], 1e-9) == []

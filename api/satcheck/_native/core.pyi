@@ -507,6 +507,9 @@ class DepthInterval:
     @property
     def proof(self) -> DepthProof | None: ...
 
+def inner_region(
+    solid: Surface, seed: Point, within: Polytope, like: Polytope
+) -> Polytope | None: ...
 def search_depth(
     a: Surface,
     b: Surface,

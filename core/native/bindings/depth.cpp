@@ -13,7 +13,9 @@
 
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
+#include "convex/convex_hull.hpp"
 #include "depth/depth_search.hpp"
+#include "depth/inner_region.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -30,6 +32,13 @@ DepthInterval checked_search(const Surface& a, const Surface& b, double upper, d
   if (!(limit > 0)) throw std::invalid_argument("limit must be a length > 0");
   if (a.mesh.triangles.empty() || b.mesh.triangles.empty()) throw std::invalid_argument("a surface is empty");
   return search_depth(a, b, {upper, lower, width, work, across, limit, prove, polling(std::move(progress), work)});
+}
+
+std::optional<Polytope> checked_region(const Surface& solid, const Tuple3& seed, const Polytope& within, const Polytope& like) {
+  if (!solid.solid) throw std::invalid_argument("the surface is not a solid");
+  if (within.dimension != 3 || like.dimension != 3) throw std::invalid_argument("within and like must be solid");
+  const auto region = grow_inner_region(solid, finite_point(seed), metric_of(like.vertices), nullptr, &within);
+  return region ? std::optional(convex_hull(region->vertices)) : std::nullopt;
 }
 
 const char* name_of(DepthStop stop) {
@@ -78,6 +87,10 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
       .def_ro("mesh_tests", &DepthInterval::mesh_tests)
       .def_ro("sets", &DepthInterval::sets)
       .def_ro("proof", &DepthInterval::proof);
+  m.def("inner_region", &checked_region, "solid"_a, "seed"_a, "within"_a, "like"_a, nb::call_guard<nb::gil_scoped_release>(),
+        R"(A convex region that holds the seed, with no point of the surface of the solid in its interior; up to rounding it lies
+within the polytope. like: it tends to the proportions of this one. None: the seed is not inside, or too close to the
+surface to tell.)");
   m.def("search_depth", &checked_search, "a"_a, "b"_a, nb::kw_only(), "upper"_a, "lower"_a, "width"_a, "work"_a,
         "across"_a = -1, "limit"_a = INFINITY, "prove"_a = false, "progress"_a.none() = nb::none(),
         nb::call_guard<nb::gil_scoped_release>(),

@@ -23,11 +23,10 @@ namespace {
 // Measured steps of visiting a box or a triangle, and of testing it against a plane.
 constexpr std::uint64_t kVisitWork = 60, kPlaneWork = 3;
 
-constexpr int kBoxPlanes = 6;  // the first ones, of the surface's own box
-constexpr std::size_t kMaxPlanes = 80;
+constexpr std::size_t kMaxCuts = 74;  // planes beside the first ones
 // A plane may move inward by this share of its distance from the seed. The share doubles with the number of planes.
 constexpr double kGiveWay = 1.0 / 16, kMostWay = 0.5;
-constexpr int kPlanesToDoubleIt = 12;
+constexpr std::size_t kCutsToDoubleIt = 12;
 // Rounding of two plane tests, as a multiple of the largest coordinate: along a unit normal, a corner's
 // differences from the seed, products and sums are off by less than 14 roundoffs, a box's by less than 24.
 constexpr double kPlaneError = 64 * kUnitRoundoff;
@@ -63,15 +62,23 @@ struct Farther {
 
 class Growth {
  public:
-  Growth(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget)
+  Growth(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget, const Polytope* within)
       : solid_(solid), seed_(seed), metric_(metric), budget_(budget) {
-    const Aabb& box = solid.bvh.nodes[0].box;
+    Aabb box = solid.bvh.nodes[0].box;
+    if (within) {
+      for (const Vec3& p : within->vertices) box.include(p);
+      for (std::size_t f = 0; f < within->face_count(); ++f) {
+        const Vec3 normal = within->face_normal[f], corner = within->vertices[within->face_vertex[within->face_offset[f]]];
+        add_plane(normal, dot(normal, corner - seed));
+      }
+    }
     pad_ = kPlaneError * std::fmax(max_abs(box.min), max_abs(box.max));
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3 && !within; ++axis) {
       const Vec3 unit{axis == 0 ? 1.0 : 0, axis == 1 ? 1.0 : 0, axis == 2 ? 1.0 : 0};
       add_plane(unit, (box.max - seed)[axis]);
       add_plane(-unit, (seed - box.min)[axis]);
     }
+    first_planes_ = planes_.size();
   }
 
   std::optional<InnerRegion> run() {
@@ -167,8 +174,8 @@ class Growth {
         closest = &p;
       }
     }
-    const int doublings = (static_cast<int>(planes_.size()) - kBoxPlanes) / kPlanesToDoubleIt;
-    const double give_way = std::fmin(std::ldexp(kGiveWay, doublings), kMostWay);
+    const std::size_t cuts = planes_.size() - first_planes_;
+    const double give_way = std::fmin(std::ldexp(kGiveWay, static_cast<int>(cuts / kCutsToDoubleIt)), kMostWay);
     if (closest_share >= 1 - give_way && closest_offset > 2 * pad_) {
       closest->offset = closest_offset;
       return true;
@@ -179,7 +186,7 @@ class Growth {
     if (!(length > 0)) return false;
     const Vec3 normal = without_dust(across * (1 / length));
     const double offset = least_along(normal, c);
-    if (!(offset > 2 * pad_) || planes_.size() >= kMaxPlanes) return false;
+    if (!(offset > 2 * pad_) || cuts >= kMaxCuts) return false;
     add_plane(normal, offset);
     return true;
   }
@@ -224,24 +231,26 @@ class Growth {
   Budget* budget_;
   double pad_ = 0;
   std::vector<Plane> planes_;
+  std::size_t first_planes_ = 0;  // of the box, or of the solid around the region
   std::size_t last_ = 0;  // the plane that the last obstacle lies beyond
   std::priority_queue<Candidate, std::vector<Candidate>, Farther> queue_;
 };
 
 }  // namespace
 
-std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget) {
+std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget,
+                                             const Polytope* within) {
   if (!solid.solid || winding_number(solid, seed, budget).value_or(0) == 0) return std::nullopt;
-  return Growth(solid, seed, metric, budget).run();
+  return Growth(solid, seed, metric, budget, within).run();
 }
 
-Metric metric_of(const InnerRegion& region) {
+Metric metric_of(const std::vector<Vec3>& points) {
   // Inverse square root of the covariance by its Cholesky factor: |L^-1 x| is the same length.
   Vec3 mean;
-  for (const Vec3& p : region.vertices) mean = mean + p;
-  mean = mean * (1.0 / static_cast<double>(region.vertices.size()));
+  for (const Vec3& p : points) mean = mean + p;
+  mean = mean * (1.0 / static_cast<double>(points.size()));
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  for (const Vec3& v : region.vertices) {
+  for (const Vec3& v : points) {
     const Vec3 d = v - mean;
     xx += d.x * d.x;
     xy += d.x * d.y;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "convex/polytope.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -19,10 +20,12 @@ struct InnerRegion {
 // The metric for distances while a region grows: the distance of x from the seed is the length of metric * (x - seed).
 using Metric = Mat3;
 
-// Empty if the seed is not strictly inside, or too close to the surface to tell.
-std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget = nullptr);
+// Empty if the seed is not strictly inside, or too close to the surface to tell. within: a solid that the region does not
+// leave, up to rounding; null: the box of the surface.
+std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric, Budget* budget = nullptr,
+                                             const Polytope* within = nullptr);
 
-// The metric in which the covariance of the region's vertices is that of a ball.
-Metric metric_of(const InnerRegion& region);
+// The metric in which the covariance of the points is that of a ball.
+Metric metric_of(const std::vector<Vec3>& points);
 
 }  // namespace satcheck

@@ -123,7 +123,7 @@ class Proof {
   std::vector<InnerRegion> regions(const Surface& solid, Vec3 seed) const {
     std::vector<InnerRegion> found;
     if (auto round = grow_inner_region(solid, seed, {}, &budget_)) {
-      auto spread = grow_inner_region(solid, seed, metric_of(*round), &budget_);
+      auto spread = grow_inner_region(solid, seed, metric_of(round->vertices), &budget_);
       found.push_back(std::move(*round));
       if (spread) found.push_back(std::move(*spread));
     }

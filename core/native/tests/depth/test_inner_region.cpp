@@ -71,11 +71,25 @@ void an_arm_is_filled() {
     const auto round = grow_inner_region(solid, seed, {});
     CHECK(round && lies_inside(*round, solid));
     if (!round) continue;
-    const auto spread = grow_inner_region(solid, seed, metric_of(*round));
+    const auto spread = grow_inner_region(solid, seed, metric_of(round->vertices));
     CHECK(spread && lies_inside(*spread, solid));
     // The whole corner block at least: planes that give way take a little of it.
     CHECK(volume(*round) > 12);
   }
+}
+
+void a_region_stays_within_a_solid() {
+  const Surface solid = make_surface(bracket(), true);
+  const Mesh around = box({0.5, 0.25, 0.5}, {9, 9, 1.5});  // it reaches out of the bracket
+  const Polytope within = convex_hull(around.vertices);
+  for (const Vec3 seed : {Vec3{1, 1, 1}, {5, 1, 1}, {1, 5.5, 1}}) {
+    const auto region = grow_inner_region(solid, seed, {}, nullptr, &within);
+    CHECK(region && lies_inside(*region, solid));
+    for (const Vec3& p : region ? region->vertices : std::vector<Vec3>{}) {
+      CHECK(p.x > 0.5 - 1e-12 && p.y > 0.25 - 1e-12 && p.z > 0.5 - 1e-12 && p.z < 1.5 + 1e-12);
+    }
+  }
+  CHECK(!grow_inner_region(solid, {0.25, 0.125, 0.25}, {}, nullptr, &within));
 }
 
 void round_and_hollow_solids() {
@@ -111,6 +125,7 @@ void seeds_that_are_not_inside_have_no_region() {
 UNIT(inner_region) {
   boxes_are_filled();
   an_arm_is_filled();
+  a_region_stays_within_a_solid();
   round_and_hollow_solids();
   seeds_that_are_not_inside_have_no_region();
 }
