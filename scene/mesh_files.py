@@ -73,7 +73,7 @@ class MeshFiles:
     @cached_property
     def _children(self) -> ReadingChildren:
         make = ReadingChildren if self._known is None else self._known.children
-        return make(self.allowed.megabytes)
+        return make(self.allowed.permitted.megabytes)
 
     def close(self) -> None:
         # An error that is kept holds this object in a cycle, which may live for long.
@@ -209,7 +209,7 @@ class MeshFiles:
         from satcheck.scene.robot.reading import required_robot_reader
 
         with _reading(path, location):
-            reader = required_robot_reader(path, location)
+            reader = required_robot_reader(path, location, self.allowed.permitted)
             folder, name = os.path.split(location)
             file = File(
                 reader.name,

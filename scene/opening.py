@@ -1,6 +1,7 @@
 """The files of inputs: what is there, which files an input may name, and how they are opened.
 
-Only regular files are opened, no larger than a limit. Whatever opens an input, or asks whether it
+Only regular files are opened, no larger than a share of the memory for reading one; what a file
+unpacks to counts as a file. Whatever opens an input, or asks whether it
 is there, notes it for callers that keep results of a check; nothing depends on whether anybody
 listens. A child process cannot note for its parent: its answer names what it has read. Of a mesh
 file the bytes are read once, hashed, and its suffix and content are checked.
@@ -21,13 +22,13 @@ from contextlib import contextmanager
 from functools import cached_property
 from io import BufferedReader, FileIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from msgspec import Struct
 
 from satcheck._native.readers import read_file
 from satcheck.scene.errors import Refused
-from satcheck.scene.files import limits
+from satcheck.scene.files.limits import BYTES_PER_MEGABYTE
 
 if TYPE_CHECKING:
     from satcheck.scene.files.readers import Reader, ReadOptions
@@ -87,14 +88,47 @@ def folders_of_environment() -> list[Path]:
     return plain + [Path(entry) / "share" for entry in ament if entry]
 
 
+class Most(NamedTuple):
+    """The most bytes of a file, or of what it unpacks to. why: what they are, and what to do."""
+
+    size: int
+    why: str
+
+    def refuse_beyond(self, size: int, what: str = "") -> None:
+        """Raises Refused for a larger size. what: has it, unless it is the file."""
+        if size > self.size:
+            message = f"{size} bytes exceed the limit of {self.size} bytes, {self.why}"
+            raise Refused("too-large", f"{what}: {message}" if what else message)
+
+
+# Of what satcheck writes, and of settings; the user names the file.
+OWN_FILE = Most(1 << 30, "the most for such a file: write less into it")
+
+
 class Permitted(Struct, frozen=True):
     """A file may name what lies in its own folder, and in these folders, which are without links.
 
-    anywhere: all other files too.
+    anywhere: all other files too. megabytes: of memory for reading one.
     """
 
     folders: tuple[str, ...] = ()
     anywhere: bool = False
+    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
+
+    @property
+    def most(self) -> Most:
+        """Return the limit of any file: reading a text takes about three times its size."""
+        return self._share(4, "a quarter")
+
+    @property
+    def most_of_tree(self) -> Most:
+        """Return that of XML that becomes a tree of objects in this process, which takes about
+        twenty times its size."""
+        return self._share(32, "a 32nd")
+
+    def _share(self, count: int, named: str) -> Most:
+        why = f"{named} of the memory for one file (raise it with --limit megabytes=N)"
+        return Most(self.megabytes * BYTES_PER_MEGABYTE // count, why)
 
     @classmethod
     def around(
@@ -103,15 +137,16 @@ class Permitted(Struct, frozen=True):
         given: Sequence[str | Path],
         *,
         anywhere: bool = False,
+        megabytes: int = DEFAULT_MEGABYTES_PER_FILE,
     ) -> Self:
         """given: folders that the user named. Those count that one of these files lies in, so that
         no answer depends on what else is checked."""
         if anywhere or not given:
-            return cls(anywhere=anywhere)
+            return cls(anywhere=anywhere, megabytes=megabytes)
         places = [followed(Path(path).parent) for path in paths]
         folders = dict.fromkeys(followed(Path(folder)) for folder in given)
         around = [each for each in folders if any(place.is_relative_to(each) for place in places)]
-        return cls(tuple(sorted(map(str, around))))
+        return cls(tuple(sorted(map(str, around))), megabytes=megabytes)
 
 
 NOTHING_ELSE = Permitted()
@@ -265,6 +300,19 @@ class Context:
             raise Refused("missing-resource", f"{what} is missing")
         return place
 
+    @contextmanager
+    def open(self, what: str, name: str) -> Iterator[tuple[FileIO, int]]:
+        """Open such a file, and yield it with its size. Raises Refused, also while it is read."""
+        place = self.find(what, name)
+        try:
+            with FileIO(place) as file:
+                size = os.fstat(file.fileno()).st_size
+                self.permitted.most.refuse_beyond(size, what)
+                yield file, size
+        except OSError as error:
+            message = f"{what} cannot be read: {error.strerror}"
+            raise Refused("unreadable-file", message) from None
+
 
 class File(Struct, frozen=True):
     """A file that is open for a reader. It can be sent to a child process.
@@ -306,14 +354,13 @@ class File(Struct, frozen=True):
 
 
 class ReadLimits(Struct, frozen=True):
-    """Limits and options for reading one file, which may itself have a quarter of the megabytes.
+    """Limits and options for reading one file.
 
-    permitted: where the files may lie that it refers to. hashed: whether its SHA-256 is needed.
-    options: those that are given, of any reader.
+    permitted: how large it may be, and where the files may lie that it refers to. hashed: whether
+    its SHA-256 is needed. options: those that are given, of any reader.
     """
 
     seconds: float = DEFAULT_SECONDS_PER_FILE
-    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
     permitted: Permitted = NOTHING_ELSE
     hashed: bool = True
     options: ReadOptions = {}
@@ -321,12 +368,7 @@ class ReadLimits(Struct, frozen=True):
     @property
     def key(self) -> tuple[object, ...]:
         """Return what can be a key, the same for equal limits."""
-        limits = self.seconds, self.megabytes, self.permitted, self.hashed
-        return (*limits, *sorted(self.options.items()))
-
-    @property
-    def file_bytes(self) -> int:
-        return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
+        return (self.seconds, self.permitted, self.hashed, *sorted(self.options.items()))
 
 
 STANDARD_INPUT = "-"
@@ -403,16 +445,14 @@ def size_of(location: StrPath) -> int:
     return status.st_size
 
 
-def read_whole(path: str, location: StrPath, most: int) -> bytes:
+def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
     """The bytes of a text file, without padding. Raises Refused, with the path, if it is not a
-    regular file, has more than `most` bytes, or cannot be read."""
+    regular file, is too large, or cannot be read."""
     try:
-        if size_of(location) > most:
-            raise _too_large(most)
+        most.refuse_beyond(size_of(location))
         with FileIO(location) as raw, BufferedReader(raw) as file:
-            data = file.read(most + 1)  # a system file states no size
-        if len(data) > most:
-            raise _too_large(most)
+            data = file.read(most.size + 1)  # a system file states no size
+        most.refuse_beyond(len(data))
         return without_padding(data)
     except Refused as error:
         raise Refused(error.code, error.message, file=path) from None
@@ -434,10 +474,6 @@ def _unreadable(error: OSError) -> Refused:
     return Refused("unreadable-file", f"cannot be read: {error.strerror}")
 
 
-def _too_large(most: int) -> Refused:
-    return Refused("too-large", f"larger than {most >> 20} MiB, the most for such a file")
-
-
 def open_file(
     path: str,
     location: StrPath,
@@ -453,15 +489,15 @@ def open_file(
     are read here: its reader reads it in pieces. whole: see `File`.
     """
     size = size_of(location)
-    most = allowed.file_bytes
+    most = allowed.permitted.most
     reader = find(suffix_of(location))
-    _refuse_large(size, most)
+    most.refuse_beyond(size)
     try:
         in_pieces = reader.name == "stl" and not allowed.hashed
-        size, data = _read(location, size, most, in_pieces=in_pieces)
+        size, data = _read(location, size, most.size, in_pieces=in_pieces)
     except OSError as error:
         raise _unreadable(error) from None
-    _refuse_large(size, most)
+    most.refuse_beyond(size)
     digest = hashlib.sha256(data).hexdigest() if allowed.hashed else None
     if reader.text == "plain" and not _is_binary_stl(size, data):
         unmarked = _without_mark(data)
@@ -486,15 +522,6 @@ def open_file(
         path=path,
         sha256=digest,
     )
-
-
-def _refuse_large(size: int, most: int) -> None:
-    if size > most:
-        message = (
-            f"{size} bytes exceed the limit of {most} bytes, a quarter of the memory for one file "
-            "(raise it with --limit megabytes=N)"
-        )
-        raise Refused("too-large", message)
 
 
 def _read(location: StrPath, size: int, max_bytes: int, *, in_pieces: bool) -> tuple[int, bytes]:
