@@ -64,30 +64,29 @@ def mesh_file(
     """Inspect a mesh of a file.
 
     raw: the mesh as read. mesh: a piece of it; None: all. part: its name in the file. placed: the
-    file itself places it. Raises Refused.
+    file itself places it. Raises what `errors_of` takes.
     """
-    with errors_of(file.path):
-        resolution = partial(resolution_of, raw)
-        if mesh is None:
-            examined = examine_bytes(raw.vertices, raw.triangles, resolution)
-        else:
-            examined = examine(mesh, resolution=resolution)
-        far = far_vertex(raw, examined.mesh)
-        said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
-        return MeshFile(
-            path=file.path,
-            sha256=file.sha256,
-            format=file.format,
-            resolution=resolution_of(raw, examined.mesh),
-            units=raw.units,
-            mesh=examined.mesh,
-            topology=examined.topology,
-            health=examined.health,
-            issues=tuple(issue(code, message, file=file.path) for code, message in said),
-            part=part,
-            placement_step=placement_step(raw, by_file=placed),
-            surface_tolerance=raw.surface_tolerance,
-        )
+    resolution = partial(resolution_of, raw)
+    if mesh is None:
+        examined = examine_bytes(raw.vertices, raw.triangles, resolution)
+    else:
+        examined = examine(mesh, resolution=resolution)
+    far = far_vertex(raw, examined.mesh)
+    said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
+    return MeshFile(
+        path=file.path,
+        sha256=file.sha256,
+        format=file.format,
+        resolution=resolution(examined.mesh),
+        units=raw.units,
+        mesh=examined.mesh,
+        topology=examined.topology,
+        health=examined.health,
+        issues=tuple(issue(code, message, file=file.path) for code, message in said),
+        part=part,
+        placement_step=placement_step(raw, by_file=placed),
+        surface_tolerance=raw.surface_tolerance,
+    )
 
 
 def resolution_of(raw: RawMesh, mesh: Mesh) -> float:

@@ -59,7 +59,7 @@ exists = os.path.exists
 
 def name_of(path: StrPath) -> tuple[str, str]:
     """Return the stem and the suffix of the last name, as `Path` does in ten times the time."""
-    name = os.path.basename(os.fspath(path).rstrip("/"))  # noqa: PTH119
+    name = os.fspath(path).rstrip("/").rpartition("/")[2].rpartition(os.sep)[2]
     dot = name.rfind(".")
     return (name[:dot], name[dot:]) if 0 < dot < len(name) - 1 else (name, "")
 
@@ -105,6 +105,9 @@ class Most(NamedTuple):
 OWN_FILE = Most(1 << 30, "the most for such a file: write less into it")
 
 
+_OF_MEMORY = " of the memory for one file (raise it with --limit megabytes=N)"
+
+
 class Permitted(Struct, frozen=True):
     """A file may name what lies in its own folder, and in these folders, which are without links.
 
@@ -127,8 +130,7 @@ class Permitted(Struct, frozen=True):
         return self._share(32, "a 32nd")
 
     def _share(self, count: int, named: str) -> Most:
-        why = f"{named} of the memory for one file (raise it with --limit megabytes=N)"
-        return Most(self.megabytes * BYTES_PER_MEGABYTE // count, why)
+        return Most(self.megabytes * BYTES_PER_MEGABYTE // count, named + _OF_MEMORY)
 
     @classmethod
     def around(
@@ -266,6 +268,8 @@ class Context:
         self.permitted = permitted
         self._package = package
         self._words = words
+        self._start = "" if self.folder == Path() else str(self.folder)
+        self._followed: dict[str, str] = {}  # folder -> the same without links
 
     @cached_property
     def own(self) -> Path:
@@ -278,8 +282,16 @@ class Context:
         own = (str(self.own), str(followed(self.folder)), *self.permitted.folders)
         return tuple(folder.rstrip(os.sep) + os.sep for folder in own)
 
-    def permits(self, place: Path) -> bool:
-        return self.permitted.anywhere or f"{followed(place)}{os.sep}".startswith(self._folders)
+    def permits(self, place: StrPath) -> bool:
+        if self.permitted.anywhere:
+            return True
+        folder, name = os.path.split(place)
+        if name in ("", os.curdir, os.pardir) or os.path.islink(place):  # noqa: PTH114
+            return f"{followed(Path(place))}{os.sep}".startswith(self._folders)
+        if folder not in self._followed:
+            self._followed[folder] = str(followed(Path(folder)))
+        real = os.path.join(self._followed[folder], name, "")  # noqa: PTH118  many files lie there
+        return real.startswith(self._folders)
 
     def refusal(
         self, what: str, advice: str = "refused (allow it with --allow-outside)"
@@ -288,11 +300,13 @@ class Context:
         where = " and of ".join((self._words, *self.permitted.folders))
         return Refused("outside-path", f"{what} lies outside of {where}: {advice}")
 
-    def find(self, what: str, name: str) -> Path:
+    def find(self, what: str, name: str) -> str:
         """Return where a file lies that is named. what: as above. Raises Refused."""
         if "\0" in name:
             raise Refused("bad-record", f"the path of {what} holds a NUL character")
-        place = self.folder / name
+        # As `Path` joins them, which takes long.
+        is_tidy = "./" not in name and "//" not in name
+        place = os.path.join(self._start, name) if is_tidy else str(self.folder / name)  # noqa: PTH118
         note(place)
         if not self.permits(place):
             raise self.refusal(what)
@@ -396,20 +410,20 @@ _STL_COUNT = slice(80, 84)
 
 # The first bytes of files that are often misnamed as meshes, and what they are. The marks of a
 # reader say which of them its files may have.
-_SIGNATURES = (
-    (b"\x89PNG\r\n", "a PNG image"),
-    (b"\xff\xd8\xff", "a JPEG image"),
-    (b"GIF8", "a GIF image"),
-    (b"%PDF", "a PDF document"),
-    (b"\x1f\x8b", "gzip data"),
-    (b"\x7fELF", "an ELF program"),
-    (b"version https://git-lfs", "a Git LFS pointer: git lfs pull fetches the file"),
-    (b"glTF", "a GLB file"),
-    (b"ISO-10303-21;", "a STEP file"),
-    (b"PK\x03\x04", "a zip archive"),
-    (b"ply\n", "a PLY file"),
-    (b"ply\r\n", "a PLY file"),
-)
+_SIGNATURES = {
+    b"\x89PNG\r\n": "a PNG image",
+    b"\xff\xd8\xff": "a JPEG image",
+    b"GIF8": "a GIF image",
+    b"%PDF": "a PDF document",
+    b"\x1f\x8b": "gzip data",
+    b"\x7fELF": "an ELF program",
+    b"version https://git-lfs": "a Git LFS pointer: git lfs pull fetches the file",
+    b"glTF": "a GLB file",
+    b"ISO-10303-21;": "a STEP file",
+    b"PK\x03\x04": "a zip archive",
+    b"ply\n": "a PLY file",
+    b"ply\r\n": "a PLY file",
+}
 
 # The words at the start of lines in a text format, without comments.
 _FIRST_WORDS = (
@@ -499,13 +513,14 @@ def open_file(
         raise _unreadable(error) from None
     most.refuse_beyond(size)
     digest = hashlib.sha256(data).hexdigest() if allowed.hashed else None
-    if reader.text == "plain" and not _is_binary_stl(size, data):
+    is_stl = _is_binary_stl(size, data)
+    if reader.text == "plain" and not is_stl:
         unmarked = _without_mark(data)
         size, data = size + len(unmarked) - len(data), unmarked
-    if reader.text != "none" and not _is_binary(size, data):
+    if reader.text != "none" and not is_stl and _BINARY_PLY not in data[:_TEXT_HEAD_BYTES]:
         text = without_padding(data)
         size, data = size + len(text) - len(data), text
-    content = _other_content(reader, size, data)
+    content = _other_content(reader, data, is_stl=is_stl)
     if content is not None:
         message = f"not of format {reader.title}: its content is {content}"
         raise Refused("format-mismatch", message)
@@ -555,19 +570,14 @@ def _without_mark(data: bytes) -> bytes:
     return data
 
 
-def _other_content(reader: Reader, size: int, data: bytes) -> str | None:
-    """What the content is if it is certainly not of this format."""
-    for signature, name in _SIGNATURES:
-        if data.startswith(signature):
-            return None if signature in reader.marks else name
+def _other_content(reader: Reader, data: bytes, *, is_stl: bool) -> str | None:
+    """What the content is if it is certainly not of this format. is_stl: it is binary STL."""
+    if data.startswith(tuple(_SIGNATURES)):
+        signature = next(filter(data.startswith, _SIGNATURES))
+        return None if signature in reader.marks else _SIGNATURES[signature]
     if reader.name == "stl":
         return _other_text(data)
-    return "a binary STL file" if _is_binary_stl(size, data) else None
-
-
-def _is_binary(size: int, data: bytes) -> bool:
-    """Return whether a file of a format that may be text is not."""
-    return _BINARY_PLY in data[:_TEXT_HEAD_BYTES] or _is_binary_stl(size, data)
+    return "a binary STL file" if is_stl else None
 
 
 def _is_binary_stl(size: int, data: bytes) -> bool:

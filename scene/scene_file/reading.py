@@ -211,7 +211,7 @@ def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
     path: of the scene file, for messages; location: on disk. permitted: where meshes may lie beside
     its folder.
     """
-    context = Context(location.parent, permitted)
+    context, folder = Context(location.parent, permitted), os.path.dirname(path)  # noqa: PTH120
 
     @cache
     def found(mesh: str, part: str | None) -> FilePart:
@@ -225,8 +225,8 @@ def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
             place = context.find(f"mesh file {shown(mesh)}", mesh)
         except Refused as error:
             raise Wrong(error.message, "mesh", code=error.code) from None
-        name = os.path.normpath(Path(path).parent / mesh).replace(os.sep, "/")
-        return FilePart(name, str(place))
+        name = os.path.normpath(os.path.join(folder, mesh))  # noqa: PTH118
+        return FilePart(name.replace(os.sep, "/"), place)
 
     return found
 

@@ -163,7 +163,8 @@ def read_text(path: str, location: Path, most: Most = OWN_FILE) -> str:
 def parse_toml(text: str) -> dict[str, Any]:
     """Raises ValueError for text that is not TOML, and for a key of many parts: the parser takes
     time and memory by the square of their number."""
-    if text.count(".") > MAX_DEPTH and _LONG_KEY.search(text):
+    dotted = (line for line in text.split("\n") if line.count(".") >= MAX_DEPTH)
+    if any(map(_LONG_KEY.search, dotted)):
         raise ValueError(f"a key has more than {MAX_DEPTH} parts")
     return tomllib.loads(text)
 
