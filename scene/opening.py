@@ -20,7 +20,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property
-from io import BufferedReader, FileIO
+from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
@@ -463,15 +463,10 @@ def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
     """The bytes of a text file, without padding. Raises Refused, with the path, if it is not a
     regular file, is too large, or cannot be read."""
     try:
-        most.refuse_beyond(size_of(location))
-        with FileIO(location) as raw, BufferedReader(raw) as file:
-            data = file.read(most.size + 1)  # a system file states no size
-        most.refuse_beyond(len(data))
+        _, data = _read(location, size_of(location), most)
         return without_padding(data)
     except Refused as error:
         raise Refused(error.code, error.message, file=path) from None
-    except OSError as error:
-        raise Refused("unreadable-file", f"cannot be read: {error.strerror}", file=path) from None
 
 
 def without_padding(data: bytes) -> bytes:
@@ -503,15 +498,9 @@ def open_file(
     are read here: its reader reads it in pieces. whole: see `File`.
     """
     size = size_of(location)
-    most = allowed.permitted.most
     reader = find(suffix_of(location))
-    most.refuse_beyond(size)
-    try:
-        in_pieces = reader.name == "stl" and not allowed.hashed
-        size, data = _read(location, size, most.size, in_pieces=in_pieces)
-    except OSError as error:
-        raise _unreadable(error) from None
-    most.refuse_beyond(size)
+    in_pieces = reader.name == "stl" and not allowed.hashed
+    size, data = _read(location, size, allowed.permitted.most, in_pieces=in_pieces)
     digest = hashlib.sha256(data).hexdigest() if allowed.hashed else None
     is_stl = _is_binary_stl(size, data)
     if reader.text == "plain" and not is_stl:
@@ -539,19 +528,26 @@ def open_file(
     )
 
 
-def _read(location: StrPath, size: int, max_bytes: int, *, in_pieces: bool) -> tuple[int, bytes]:
+def _read(
+    location: StrPath, size: int, most: Most, *, in_pieces: bool = False
+) -> tuple[int, bytes]:
     """The size and the bytes of the file, even if its size has changed, and of a system file, which
-    states none; at most a byte more than max_bytes. in_pieces: of a large binary STL file only the
-    first bytes are read."""
-    with FileIO(location) as file:
-        if in_pieces and size >= LARGE_FILE_BYTES:
-            head = file.read(_TEXT_HEAD_BYTES)
-            if _is_binary_stl(size, head):
-                return size, head
-            file.seek(0)
-        data = read_file(file.fileno(), size)
-        if more := file.read(1):
-            data += more + read_file(file.fileno(), max_bytes - len(data))
+    states none. in_pieces: of a large binary STL file only the first bytes are read. Raises
+    Refused."""
+    most.refuse_beyond(size)
+    try:
+        with FileIO(location) as file:
+            if in_pieces and size >= LARGE_FILE_BYTES:
+                head = file.read(_TEXT_HEAD_BYTES)
+                if _is_binary_stl(size, head):
+                    return size, head
+                file.seek(0)
+            data = read_file(file.fileno(), size)
+            if more := file.read(1):
+                data += more + read_file(file.fileno(), most.size - len(data))
+    except OSError as error:
+        raise _unreadable(error) from None
+    most.refuse_beyond(len(data))
     return len(data), data
 
 

@@ -3,6 +3,8 @@ those of sizes."""
 
 from __future__ import annotations
 
+from satcheck.scene.errors import Refused
+
 BYTES_PER_MEGABYTE = 1 << 20
 
 # Instances multiply: a dozen nested components can expand to 10^12 instances or triangles.
@@ -17,3 +19,9 @@ IN_PROCESS_BYTES = 4 * BYTES_PER_MEGABYTE
 # What such a file may cost in this process: files that it names, data that it unpacks, and numbers
 # that it names again and again. Beyond that a child process reads it.
 IN_PROCESS_WORK = 256 * BYTES_PER_MEGABYTE
+
+
+def refuse_many(count: int, what: str) -> None:
+    """Raises Refused for more placed parts than a file may have."""
+    if count > MAX_PLACEMENTS:
+        raise Refused("too-large", f"more than {MAX_PLACEMENTS} {what}: split the file")
