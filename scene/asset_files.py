@@ -13,7 +13,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import SCENE_SUFFIXES, mesh_reader, reader_of_robot, robots_of
 from satcheck.scene.foreign_formats import is_foreign
-from satcheck.scene.opening import NOTHING_ELSE, exists, is_folder, read_whole
+from satcheck.scene.opening import exists, is_folder, size_of
 
 # Most JSON and TOML is something else, unless it holds one of these texts, which begin the names of
 # schemas of any version.
@@ -97,10 +97,11 @@ class _LeftOut:
 
 
 def content_of(path: Path) -> bytes | None:
-    """None if the file cannot be read, is no regular file or too large. Its reader reports why."""
+    """None if the file cannot be read or is not a regular file. Its reader reports why."""
     try:
-        return read_whole(str(path), path, NOTHING_ELSE.most)
-    except SatcheckError:
+        size_of(path)
+        return path.read_bytes()
+    except (SatcheckError, OSError):
         return None
 
 

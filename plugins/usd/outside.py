@@ -15,7 +15,7 @@ from typing import Any
 from pxr import Ar, Sdf, Tf
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.opening import Context, size_of
+from satcheck.scene.opening import Context, exists, is_folder, size_of
 
 
 class Closed:
@@ -54,8 +54,8 @@ class Closed:
         return self._context.refusal(f"layer {place!r}")
 
     def _refuse_large(self, place: str) -> None:
-        file = Path(file_of(place))
-        if file.exists() and not file.is_dir():  # the composition says what is missing
+        file = file_of(place)
+        if exists(file) and not is_folder(file):  # the composition says what is missing
             try:
                 self._context.permitted.most.refuse_beyond(size_of(file))
             except Refused as error:
