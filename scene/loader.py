@@ -168,7 +168,9 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
                         geometry = self.geometry or "collision"
                         builder.add(files.robot(path, path, self.packages or {}, geometry))
                     case "srdf":
-                        builder.add_srdf(_srdf(path, permitted))
+                        from satcheck.scene.robot import read_srdf
+
+                        builder.add_srdf(read_srdf(path, Path(path), permitted))
                     case _:
                         own: Split = split if kind == "mesh" else "nodes"
                         found = files.document(path, path, own)
@@ -262,13 +264,6 @@ def _scene(path: str, permitted: Permitted) -> SceneFile:
     from satcheck.scene.scene_file.reading import read_scene_file
 
     return read_scene_file(path, Path(path), permitted)
-
-
-def _srdf(path: str, permitted: Permitted) -> Srdf:
-    """Raises Refused."""
-    from satcheck.scene.robot import read_srdf
-
-    return read_srdf(path, Path(path), permitted)
 
 
 def _with_ids(

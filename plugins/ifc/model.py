@@ -15,7 +15,7 @@ from satcheck.plugins.ifc.elements import declared, instances_of
 from satcheck.plugins.ifc.failures import Message, logged, start_log
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import imported
-from satcheck.scene.files.zip_guard import open_part, opened_zip
+from satcheck.scene.files.zip_guard import opened_zip, read_part
 from satcheck.scene.opening import Most
 
 _ZIP = b"PK\x03\x04"
@@ -85,8 +85,7 @@ def unpacked(data: memoryview, most: Most) -> bytes:
         if len(names) != 1:
             message = f"an ifcZIP file holds one IFC file, not {len(names)}"
             raise Refused("bad-record" if names else "missing-resource", message)
-        with open_part(archive, names[0], most) as part:
-            return part.read()
+        return read_part(archive, names[0], most)
 
 
 def _refuse_other_content(content: bytes) -> None:

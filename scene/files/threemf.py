@@ -23,7 +23,7 @@ from satcheck.scene.files.slicer_config import CONFIGS, SIDE_FILES, volumes
 from satcheck.scene.files.threemf_model import ENCODINGS, Model, Object, part_name, read_model
 from satcheck.scene.files.threemf_vocabulary import RELATIONSHIP, RELATIONSHIPS, TYPES
 from satcheck.scene.files.xml_tree import read_elements
-from satcheck.scene.files.zip_guard import open_part, opened_zip
+from satcheck.scene.files.zip_guard import opened_zip, read_part
 from satcheck.scene.opening import Most
 from satcheck.scene.vocabulary import UnknownNames
 from satcheck.scene.words import listed
@@ -148,8 +148,7 @@ class _Package:
             raise Refused("bad-record", f"the package has two parts {part!r}")
         if name is None:
             raise Refused("missing-resource", f"the package has no part {part!r}")
-        with open_part(self._package, name, self._most) as stream:
-            return stream.read()
+        return read_part(self._package, name, self._most)
 
     def _model(self, part: str) -> Model:
         model = self._models.get(part)

@@ -7,7 +7,6 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import IO
 
 from satcheck.scene.errors import Refused
 from satcheck.scene.opening import Most
@@ -28,8 +27,8 @@ def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]
         raise Refused("unsupported-feature", f"zip: {error}") from None
 
 
-def open_part(archive: zipfile.ZipFile, name: str, most: Most) -> IO[bytes]:
-    """A part of the archive. Raises Refused if it unpacks to too much."""
+def read_part(archive: zipfile.ZipFile, name: str, most: Most) -> bytes:
+    """Return the content of a part. Raises Refused if it unpacks to too much."""
     entry = archive.getinfo(name)
     most.refuse_beyond(entry.file_size, f"part {name!r}, unpacked")
-    return archive.open(entry)
+    return archive.read(entry)
