@@ -37,8 +37,6 @@ from satcheck.report.values import Interval, Relation
 from satcheck.report.verdict import fails, summarise
 from satcheck.scene.opening import Signature, followed, note, read_whole, signature
 
-# Of the file of a baseline.
-MOST_BYTES = 1 << 28
 # From the mildest to the gravest.
 _GRAVITY: dict[KnownRelation, int] = {
     "separated": 0,
@@ -328,7 +326,7 @@ class _Head(msgspec.Struct, frozen=True):
 def read_baseline(path: Path) -> Baseline:
     """Raises SatcheckError: `bad-baseline`, or a code about the file."""
     try:
-        text = read_whole(str(path), path, MOST_BYTES)
+        text = read_whole(str(path), path)
         schema = msgspec.json.decode(text, type=_Head).schema
         if schema != SCHEMA and schema.startswith(SCHEMA.rstrip("1")):
             reason = "of another version of satcheck: write it again"

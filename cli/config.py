@@ -34,7 +34,6 @@ _DECIDING = (
 )
 # About one call, not about a check.
 _NOT_HERE = frozenset(("help", "help_all", "version", "debug", "config", "no_config"))
-_MOST_BYTES = 1 << 20
 # What every usual spelling of [tool.satcheck] contains: other files are not parsed.
 _MAY_HAVE_TABLE = re.compile(
     rb"""tool["'\s]*\.["'\s]*satcheck|^\s*\[?\s*["']?tool["']?\s*[]=]""", re.MULTILINE
@@ -199,7 +198,7 @@ def _bytes(path: Path) -> bytes:
     from satcheck.scene.opening import read_whole
 
     try:
-        return read_whole(str(path), path, _MOST_BYTES)
+        return read_whole(str(path), path)
     except SatcheckError as error:
         raise _bad_config(str(error)) from None
 

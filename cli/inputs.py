@@ -27,10 +27,7 @@ from satcheck.scene.files.readers import (
 )
 from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.opening import (
-    ANYWHERE,
-    is_folder,
-)
+from satcheck.scene.opening import Permitted, is_folder
 
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(
@@ -98,7 +95,9 @@ class Inputs(Struct, frozen=True):
     def mesh_files(self, reading: ReadOptions) -> MeshFiles:
         """To read the mesh files of a scene once more, with the options that it has read them
         with."""
-        return MeshFiles(ReadLimits(*self._of_file, ANYWHERE, hashed=False, options=reading))
+        seconds, megabytes = self._of_file
+        permitted = Permitted(anywhere=True, megabytes=megabytes)
+        return MeshFiles(ReadLimits(seconds, permitted, hashed=False, options=reading))
 
     @property
     def has_poses(self) -> bool:

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 CHANGED, GONE = "changed-file", "not-drawn"
 
 
-MOST_BYTES = 1 << 30
 _PATHS = {"translation": Translation, "rotation": Rotation, "path": PosePath}
 _NO_PATH = (
     "the report does not say how the links of a robot move on its path, so they stand as at its "
@@ -127,7 +126,7 @@ def _read(
 ) -> Report | AssetsReport | SamplesReport:
     """kinds: by the field that only they have."""
     try:
-        data = read_whole(str(path), path, MOST_BYTES)
+        data = read_whole(str(path), path)
         head = msgspec.json.decode(data)
         for field, kind in kinds.items():
             if isinstance(head, dict) and field in head:

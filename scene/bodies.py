@@ -252,6 +252,6 @@ def resolution_in_world(file: MeshFile, transform: Transform | None, largest: fl
 def _is_exact_scaling(transform: Transform) -> bool:
     """Return whether the transform scales by a power of two about the origin, which is exact."""
     scale = transform[0]
-    if frexp(scale)[0] != 0.5:
+    if frexp(scale)[0] != 0.5 or any(transform[3:12:4]):
         return False
     return transform == (*(scale * entry for entry in IDENTITY[:12]), *IDENTITY[12:])

@@ -64,36 +64,41 @@ def mesh_file(
     """Inspect a mesh of a file.
 
     raw: the mesh as read. mesh: a piece of it; None: all. part: its name in the file. placed: the
-    file itself places it. Raises Refused.
+    file itself places it. Raises what `errors_of` takes.
     """
-    with errors_of(file.path):
-        resolution = partial(resolution_of, raw)
-        if mesh is None:
-            examined = examine_bytes(raw.vertices, raw.triangles, resolution)
-        else:
-            examined = examine(mesh, resolution=resolution)
-        far = far_vertex(raw, examined.mesh)
-        said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
-        return MeshFile(
-            path=file.path,
-            sha256=file.sha256,
-            format=file.format,
-            resolution=resolution_of(raw, examined.mesh),
-            units=raw.units,
-            mesh=examined.mesh,
-            topology=examined.topology,
-            health=examined.health,
-            issues=tuple(issue(code, message, file=file.path) for code, message in said),
-            part=part,
-            placement_step=placement_step(raw, by_file=placed),
-            surface_tolerance=raw.surface_tolerance,
-        )
+    resolution = partial(resolution_of, raw)
+    if mesh is None:
+        examined = examine_bytes(raw.vertices, raw.triangles, resolution)
+    else:
+        examined = examine(mesh, resolution=resolution)
+    largest = _largest(examined.mesh)
+    far = far_vertex(raw, examined.mesh, largest)
+    said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
+    return MeshFile(
+        path=file.path,
+        sha256=file.sha256,
+        format=file.format,
+        resolution=file_resolution(raw, largest),
+        units=raw.units,
+        mesh=examined.mesh,
+        topology=examined.topology,
+        health=examined.health,
+        issues=tuple(issue(code, message, file=file.path) for code, message in said),
+        part=part,
+        placement_step=placement_step(raw, by_file=placed),
+        surface_tolerance=raw.surface_tolerance,
+    )
 
 
 def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
     """Return the precision of the coordinates of the mesh."""
+    return file_resolution(raw, _largest(mesh))
+
+
+def _largest(mesh: Mesh) -> float:
+    """Return the largest |coordinate|."""
     low, high = mesh.bounds
-    return file_resolution(raw, max(map(abs, (*low, *high))))
+    return max(map(abs, (*low, *high)))
 
 
 def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> MeshFile:
@@ -111,13 +116,12 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
             examined = examine(mesh_of(shape, segments))
     except OverflowError as error:
         raise Refused("out-of-range", str(error), file=path) from None
-    low, high = examined.mesh.bounds
     canonical = json.dumps([values_of(shape), segments], sort_keys=True)
     return MeshFile(
         path=path,
         sha256=hashlib.sha256(canonical.encode()).hexdigest(),
         format=SHAPE_FORMAT,
-        resolution=max(map(abs, (*low, *high))) * FLOAT64_STEP,
+        resolution=_largest(examined.mesh) * FLOAT64_STEP,
         units=None,
         mesh=examined.mesh,
         topology=examined.topology,
@@ -326,12 +330,10 @@ def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
     return max(_of_the_format(raw, max_coordinate), VERTEX * raw.rounding)
 
 
-def far_vertex(raw: RawMesh, mesh: Mesh) -> str | None:
+def far_vertex(raw: RawMesh, mesh: Mesh, largest: float) -> str | None:
     """Names the vertex that sets the precision of a mesh, if most of the others would be known far
     more finely; None: no vertex does. A step of digits, integers or packed data, which is the same
-    everywhere, has no such vertex. That of float64 is too fine to matter."""
-    low, high = mesh.bounds
-    largest = max(map(abs, (*low, *high)))
+    everywhere, has no such vertex. That of float64 is too fine to matter. largest: |coordinate|."""
     resolution = _of_the_format(raw, largest)
     if raw.number_format == "float64" or resolution < largest * FLOAT32_STEP:
         return None

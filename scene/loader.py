@@ -45,6 +45,7 @@ from satcheck.scene.opening import (
     ANYWHERE,
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
+    NOTHING_ELSE,
     Permitted,
     name_of,
     suffix_of,
@@ -138,11 +139,12 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         """
         given = [(path, kind_of(path)) for path in _as_texts(paths)]
         names = [path for path, _ in given]
-        permitted = Permitted.around(names, self.folders, anywhere=self.allow_outside)
+        permitted = Permitted.around(
+            names, self.folders, anywhere=self.allow_outside, megabytes=self.megabytes_per_file
+        )
         scenes = {path: _scene(path, permitted) for path, kind in given if kind == "scene"}
         reading = {**_stated_reading(scenes.values()), **self._given_reading()}
-        seconds, megabytes = self.seconds_per_file, self.megabytes_per_file
-        allowed = ReadLimits(seconds, megabytes, permitted, hashed, reading)
+        allowed = ReadLimits(self.seconds_per_file, permitted, hashed, reading)
         with closing(MeshFiles(allowed, known)) as files:
             builder = SceneBuilder(files, None if self.units is None else _unit(self.units))
             have_bodies = [
@@ -166,13 +168,15 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
                         geometry = self.geometry or "collision"
                         builder.add(files.robot(path, path, self.packages or {}, geometry))
                     case "srdf":
-                        builder.add_srdf(_srdf(path))
+                        from satcheck.scene.robot import read_srdf
+
+                        builder.add_srdf(read_srdf(path, Path(path), permitted))
                     case _:
                         own: Split = split if kind == "mesh" else "nodes"
                         found = files.document(path, path, own)
                         builder.add(_with_ids(found, path, kind, next(ids[kind]), alone))
             for path in _as_texts(self.rules):
-                builder.add(read_rules(path))
+                builder.add(read_rules(path, permitted))
             scene = builder.scene()
             unused = _unused(reading, files, [path for path, kind in given if kind == "robot"])
         if wrong := [name for name in unused if name in must_count]:
@@ -262,13 +266,6 @@ def _scene(path: str, permitted: Permitted) -> SceneFile:
     return read_scene_file(path, Path(path), permitted)
 
 
-def _srdf(path: str) -> Srdf:
-    """Raises Refused."""
-    from satcheck.scene.robot import read_srdf
-
-    return read_srdf(path, Path(path))
-
-
 def _with_ids(
     found: Document | Refused, path: str, kind: InputKind, file_id: str, alone: bool
 ) -> Document:
@@ -304,11 +301,11 @@ def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
     return stated
 
 
-def read_rules(path: str) -> SceneFile:
-    """A file of rules. Raises Refused."""
+def read_rules(path: str, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
+    """A file of rules. permitted: how large it may be. Raises Refused."""
     from satcheck.scene.scene_file.reading import read_rules_file
 
-    return read_rules_file(path, Path(path))
+    return read_rules_file(path, Path(path), permitted)
 
 
 def is_rules(path: str) -> bool:

@@ -1,6 +1,7 @@
 """The files of inputs: what is there, which files an input may name, and how they are opened.
 
-Only regular files are opened, no larger than a limit. Whatever opens an input, or asks whether it
+Only regular files are opened, no larger than a share of the memory for reading one; what a file
+unpacks to counts as a file. Whatever opens an input, or asks whether it
 is there, notes it for callers that keep results of a check; nothing depends on whether anybody
 listens. A child process cannot note for its parent: its answer names what it has read. Of a mesh
 file the bytes are read once, hashed, and its suffix and content are checked.
@@ -19,15 +20,15 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property
-from io import BufferedReader, FileIO
+from io import FileIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from msgspec import Struct
 
 from satcheck._native.readers import read_file
 from satcheck.scene.errors import Refused
-from satcheck.scene.files import limits
+from satcheck.scene.files.limits import BYTES_PER_MEGABYTE
 
 if TYPE_CHECKING:
     from satcheck.scene.files.readers import Reader, ReadOptions
@@ -58,7 +59,7 @@ exists = os.path.exists
 
 def name_of(path: StrPath) -> tuple[str, str]:
     """Return the stem and the suffix of the last name, as `Path` does in ten times the time."""
-    name = os.path.basename(os.fspath(path).rstrip("/"))  # noqa: PTH119
+    name = os.fspath(path).rstrip("/").rpartition("/")[2].rpartition(os.sep)[2]
     dot = name.rfind(".")
     return (name[:dot], name[dot:]) if 0 < dot < len(name) - 1 else (name, "")
 
@@ -87,14 +88,49 @@ def folders_of_environment() -> list[Path]:
     return plain + [Path(entry) / "share" for entry in ament if entry]
 
 
+class Most(NamedTuple):
+    """The most bytes of a file, or of what it unpacks to. why: what they are, and what to do."""
+
+    size: int
+    why: str
+
+    def refuse_beyond(self, size: int, what: str = "") -> None:
+        """Raises Refused for a larger size. what: has it, unless it is the file."""
+        if size > self.size:
+            message = f"{size} bytes exceed the limit of {self.size} bytes, {self.why}"
+            raise Refused("too-large", f"{what}: {message}" if what else message)
+
+
+# Of what satcheck writes, and of settings; the user names the file.
+OWN_FILE = Most(1 << 30, "the most for such a file: write less into it")
+
+
+_OF_MEMORY = " of the memory for one file (raise it with --limit megabytes=N)"
+
+
 class Permitted(Struct, frozen=True):
     """A file may name what lies in its own folder, and in these folders, which are without links.
 
-    anywhere: all other files too.
+    anywhere: all other files too. megabytes: of memory for reading one.
     """
 
     folders: tuple[str, ...] = ()
     anywhere: bool = False
+    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
+
+    @property
+    def most(self) -> Most:
+        """Return the limit of any file: reading a text takes about three times its size."""
+        return self._share(4, "a quarter")
+
+    @property
+    def most_of_tree(self) -> Most:
+        """Return that of XML that becomes a tree of objects in this process, which takes about
+        twenty times its size."""
+        return self._share(32, "a 32nd")
+
+    def _share(self, count: int, named: str) -> Most:
+        return Most(self.megabytes * BYTES_PER_MEGABYTE // count, named + _OF_MEMORY)
 
     @classmethod
     def around(
@@ -103,15 +139,16 @@ class Permitted(Struct, frozen=True):
         given: Sequence[str | Path],
         *,
         anywhere: bool = False,
+        megabytes: int = DEFAULT_MEGABYTES_PER_FILE,
     ) -> Self:
         """given: folders that the user named. Those count that one of these files lies in, so that
         no answer depends on what else is checked."""
         if anywhere or not given:
-            return cls(anywhere=anywhere)
+            return cls(anywhere=anywhere, megabytes=megabytes)
         places = [followed(Path(path).parent) for path in paths]
         folders = dict.fromkeys(followed(Path(folder)) for folder in given)
         around = [each for each in folders if any(place.is_relative_to(each) for place in places)]
-        return cls(tuple(sorted(map(str, around))))
+        return cls(tuple(sorted(map(str, around))), megabytes=megabytes)
 
 
 NOTHING_ELSE = Permitted()
@@ -240,6 +277,8 @@ class Context:
         self.permitted = permitted
         self._package = package
         self._words = words
+        self._start = "" if self.folder == Path() else str(self.folder)
+        self._followed: dict[str, str] = {}  # folder -> the same without links
 
     @cached_property
     def own(self) -> Path:
@@ -252,8 +291,16 @@ class Context:
         own = (str(self.own), str(followed(self.folder)), *self.permitted.folders)
         return tuple(folder.rstrip(os.sep) + os.sep for folder in own)
 
-    def permits(self, place: Path) -> bool:
-        return self.permitted.anywhere or f"{followed(place)}{os.sep}".startswith(self._folders)
+    def permits(self, place: StrPath) -> bool:
+        if self.permitted.anywhere:
+            return True
+        folder, name = os.path.split(place)
+        if name in ("", os.curdir, os.pardir) or os.path.islink(place):  # noqa: PTH114
+            return f"{followed(Path(place))}{os.sep}".startswith(self._folders)
+        if folder not in self._followed:
+            self._followed[folder] = str(followed(Path(folder)))
+        real = os.path.join(self._followed[folder], name, "")  # noqa: PTH118  many files lie there
+        return real.startswith(self._folders)
 
     def refusal(
         self, what: str, advice: str = "refused (allow it with --allow-outside)"
@@ -262,17 +309,32 @@ class Context:
         where = " and of ".join((self._words, *self.permitted.folders))
         return Refused("outside-path", f"{what} lies outside of {where}: {advice}")
 
-    def find(self, what: str, name: str) -> Path:
+    def find(self, what: str, name: str) -> str:
         """Return where a file lies that is named. what: as above. Raises Refused."""
         if "\0" in name:
             raise Refused("bad-record", f"the path of {what} holds a NUL character")
-        place = self.folder / name
+        # As `Path` joins them, which takes long.
+        is_tidy = "./" not in name and "//" not in name
+        place = os.path.join(self._start, name) if is_tidy else str(self.folder / name)  # noqa: PTH118
         note(place)
         if not self.permits(place):
             raise self.refusal(what)
         if not is_file(place):
             raise Refused("missing-resource", f"{what} is missing")
         return place
+
+    @contextmanager
+    def open(self, what: str, name: str) -> Iterator[tuple[FileIO, int]]:
+        """Open such a file, and yield it with its size. Raises Refused, also while it is read."""
+        place = self.find(what, name)
+        try:
+            with FileIO(place) as file:
+                size = os.fstat(file.fileno()).st_size
+                self.permitted.most.refuse_beyond(size, what)
+                yield file, size
+        except OSError as error:
+            message = f"{what} cannot be read: {error.strerror}"
+            raise Refused("unreadable-file", message) from None
 
 
 class File(Struct, frozen=True):
@@ -315,14 +377,13 @@ class File(Struct, frozen=True):
 
 
 class ReadLimits(Struct, frozen=True):
-    """Limits and options for reading one file, which may itself have a quarter of the megabytes.
+    """Limits and options for reading one file.
 
-    permitted: where the files may lie that it refers to. hashed: whether its SHA-256 is needed.
-    options: those that are given, of any reader.
+    permitted: how large it may be, and where the files may lie that it refers to. hashed: whether
+    its SHA-256 is needed. options: those that are given, of any reader.
     """
 
     seconds: float = DEFAULT_SECONDS_PER_FILE
-    megabytes: int = DEFAULT_MEGABYTES_PER_FILE
     permitted: Permitted = NOTHING_ELSE
     hashed: bool = True
     options: ReadOptions = {}
@@ -330,12 +391,7 @@ class ReadLimits(Struct, frozen=True):
     @property
     def key(self) -> tuple[object, ...]:
         """Return what can be a key, the same for equal limits."""
-        limits = self.seconds, self.megabytes, self.permitted, self.hashed
-        return (*limits, *sorted(self.options.items()))
-
-    @property
-    def file_bytes(self) -> int:
-        return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
+        return (self.seconds, self.permitted, self.hashed, *sorted(self.options.items()))
 
 
 STANDARD_INPUT = "-"
@@ -363,20 +419,20 @@ _STL_COUNT = slice(80, 84)
 
 # The first bytes of files that are often misnamed as meshes, and what they are. The marks of a
 # reader say which of them its files may have.
-_SIGNATURES = (
-    (b"\x89PNG\r\n", "a PNG image"),
-    (b"\xff\xd8\xff", "a JPEG image"),
-    (b"GIF8", "a GIF image"),
-    (b"%PDF", "a PDF document"),
-    (b"\x1f\x8b", "gzip data"),
-    (b"\x7fELF", "an ELF program"),
-    (b"version https://git-lfs", "a Git LFS pointer: git lfs pull fetches the file"),
-    (b"glTF", "a GLB file"),
-    (b"ISO-10303-21;", "a STEP file"),
-    (b"PK\x03\x04", "a zip archive"),
-    (b"ply\n", "a PLY file"),
-    (b"ply\r\n", "a PLY file"),
-)
+_SIGNATURES = {
+    b"\x89PNG\r\n": "a PNG image",
+    b"\xff\xd8\xff": "a JPEG image",
+    b"GIF8": "a GIF image",
+    b"%PDF": "a PDF document",
+    b"\x1f\x8b": "gzip data",
+    b"\x7fELF": "an ELF program",
+    b"version https://git-lfs": "a Git LFS pointer: git lfs pull fetches the file",
+    b"glTF": "a GLB file",
+    b"ISO-10303-21;": "a STEP file",
+    b"PK\x03\x04": "a zip archive",
+    b"ply\n": "a PLY file",
+    b"ply\r\n": "a PLY file",
+}
 
 # The words at the start of lines in a text format, without comments.
 _FIRST_WORDS = (
@@ -412,21 +468,14 @@ def size_of(location: StrPath) -> int:
     return status.st_size
 
 
-def read_whole(path: str, location: StrPath, most: int) -> bytes:
+def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
     """The bytes of a text file, without padding. Raises Refused, with the path, if it is not a
-    regular file, has more than `most` bytes, or cannot be read."""
+    regular file, is too large, or cannot be read."""
     try:
-        if size_of(location) > most:
-            raise _too_large(most)
-        with FileIO(location) as raw, BufferedReader(raw) as file:
-            data = file.read(most + 1)  # a system file states no size
-        if len(data) > most:
-            raise _too_large(most)
+        _, data = _read(location, size_of(location), most)
         return without_padding(data)
     except Refused as error:
         raise Refused(error.code, error.message, file=path) from None
-    except OSError as error:
-        raise Refused("unreadable-file", f"cannot be read: {error.strerror}", file=path) from None
 
 
 def without_padding(data: bytes) -> bytes:
@@ -441,10 +490,6 @@ def without_padding(data: bytes) -> bytes:
 
 def _unreadable(error: OSError) -> Refused:
     return Refused("unreadable-file", f"cannot be read: {error.strerror}")
-
-
-def _too_large(most: int) -> Refused:
-    return Refused("too-large", f"larger than {most >> 20} MiB, the most for such a file")
 
 
 def open_file(
@@ -462,25 +507,20 @@ def open_file(
     are read here: its reader reads it in pieces. whole: see `File`.
     """
     size = size_of(location)
-    most = allowed.file_bytes
     reader = find(suffix_of(location))
-    _refuse_large(size, most)
-    try:
-        in_pieces = reader.name == "stl" and not allowed.hashed
-        size, data = _read(location, size, most, in_pieces=in_pieces)
-    except OSError as error:
-        raise _unreadable(error) from None
-    _refuse_large(size, most)
+    in_pieces = reader.name == "stl" and not allowed.hashed
+    size, data = _read(location, size, allowed.permitted.most, in_pieces=in_pieces)
     digest = hashlib.sha256(data).hexdigest() if allowed.hashed else None
     if digest is not None:
         _note_digest(location, digest)
-    if reader.text == "plain" and not _is_binary_stl(size, data):
+    is_stl = _is_binary_stl(size, data)
+    if reader.text == "plain" and not is_stl:
         unmarked = _without_mark(data)
         size, data = size + len(unmarked) - len(data), unmarked
-    if reader.text != "none" and not _is_binary(size, data):
+    if reader.text != "none" and not is_stl and _BINARY_PLY not in data[:_TEXT_HEAD_BYTES]:
         text = without_padding(data)
         size, data = size + len(text) - len(data), text
-    content = _other_content(reader, size, data)
+    content = _other_content(reader, data, is_stl=is_stl)
     if content is not None:
         message = f"not of format {reader.title}: its content is {content}"
         raise Refused("format-mismatch", message)
@@ -499,28 +539,26 @@ def open_file(
     )
 
 
-def _refuse_large(size: int, most: int) -> None:
-    if size > most:
-        message = (
-            f"{size} bytes exceed the limit of {most} bytes, a quarter of the memory for one file "
-            "(raise it with --limit megabytes=N)"
-        )
-        raise Refused("too-large", message)
-
-
-def _read(location: StrPath, size: int, max_bytes: int, *, in_pieces: bool) -> tuple[int, bytes]:
+def _read(
+    location: StrPath, size: int, most: Most, *, in_pieces: bool = False
+) -> tuple[int, bytes]:
     """The size and the bytes of the file, even if its size has changed, and of a system file, which
-    states none; at most a byte more than max_bytes. in_pieces: of a large binary STL file only the
-    first bytes are read."""
-    with FileIO(location) as file:
-        if in_pieces and size >= LARGE_FILE_BYTES:
-            head = file.read(_TEXT_HEAD_BYTES)
-            if _is_binary_stl(size, head):
-                return size, head
-            file.seek(0)
-        data = read_file(file.fileno(), size)
-        if more := file.read(1):
-            data += more + read_file(file.fileno(), max_bytes - len(data))
+    states none. in_pieces: of a large binary STL file only the first bytes are read. Raises
+    Refused."""
+    most.refuse_beyond(size)
+    try:
+        with FileIO(location) as file:
+            if in_pieces and size >= LARGE_FILE_BYTES:
+                head = file.read(_TEXT_HEAD_BYTES)
+                if _is_binary_stl(size, head):
+                    return size, head
+                file.seek(0)
+            data = read_file(file.fileno(), size)
+            if more := file.read(1):
+                data += more + read_file(file.fileno(), most.size - len(data))
+    except OSError as error:
+        raise _unreadable(error) from None
+    most.refuse_beyond(len(data))
     return len(data), data
 
 
@@ -539,19 +577,14 @@ def _without_mark(data: bytes) -> bytes:
     return data
 
 
-def _other_content(reader: Reader, size: int, data: bytes) -> str | None:
-    """What the content is if it is certainly not of this format."""
-    for signature, name in _SIGNATURES:
-        if data.startswith(signature):
-            return None if signature in reader.marks else name
+def _other_content(reader: Reader, data: bytes, *, is_stl: bool) -> str | None:
+    """What the content is if it is certainly not of this format. is_stl: it is binary STL."""
+    if data.startswith(tuple(_SIGNATURES)):
+        signature = next(filter(data.startswith, _SIGNATURES))
+        return None if signature in reader.marks else _SIGNATURES[signature]
     if reader.name == "stl":
         return _other_text(data)
-    return "a binary STL file" if _is_binary_stl(size, data) else None
-
-
-def _is_binary(size: int, data: bytes) -> bool:
-    """Return whether a file of a format that may be text is not."""
-    return _BINARY_PLY in data[:_TEXT_HEAD_BYTES] or _is_binary_stl(size, data)
+    return "a binary STL file" if is_stl else None
 
 
 def _is_binary_stl(size: int, data: bytes) -> bool:

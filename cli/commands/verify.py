@@ -14,7 +14,6 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call
 from satcheck.cli.output import harmless, talk
 from satcheck.cli.progress import Bar
-from satcheck.cli.stated_scene import MOST_BYTES
 from satcheck.core.errors import SatcheckError
 from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.scene.opening import read_whole
@@ -79,7 +78,7 @@ def command(
 
 def _read(report: Path) -> Any:
     try:
-        text = read_whole(str(report), report, MOST_BYTES).decode()
+        text = read_whole(str(report), report).decode()
     except UnicodeDecodeError:
         raise SatcheckError("bad-report", f"{report}: not UTF-8") from None
     try:

@@ -15,7 +15,8 @@ from satcheck.plugins.ifc.elements import declared, instances_of
 from satcheck.plugins.ifc.failures import Message, logged, start_log
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import imported
-from satcheck.scene.files.zip_guard import open_part, opened_zip
+from satcheck.scene.files.zip_guard import opened_zip, read_part
+from satcheck.scene.opening import Most
 
 _ZIP = b"PK\x03\x04"
 _FIRST = b"ISO-10303-21"
@@ -55,9 +56,9 @@ _TEXTS = frozenset(("GlobalId", "RepresentationIdentifier", "RepresentationType"
 _UNREAD = frozenset(("OwnerHistory",))
 
 
-def open_model(data: memoryview) -> Any:
-    """The ifcopenshell.file. Raises Refused."""
-    content = unpacked(data)
+def open_model(data: memoryview, most: Most) -> Any:
+    """The ifcopenshell.file. most: bytes of the model in an archive. Raises Refused."""
+    content = unpacked(data, most)
     _refuse_other_content(content)
     ifcopenshell = imported("ifcopenshell", "ifc", "IFC files")
     start_log()
@@ -75,7 +76,7 @@ def open_model(data: memoryview) -> Any:
     return model
 
 
-def unpacked(data: memoryview) -> bytes:
+def unpacked(data: memoryview, most: Most) -> bytes:
     """The text of the file; of the only IFC file in an ifcZIP. Raises Refused."""
     if bytes(data[: len(_ZIP)]) != _ZIP:
         return bytes(data)
@@ -84,8 +85,7 @@ def unpacked(data: memoryview) -> bytes:
         if len(names) != 1:
             message = f"an ifcZIP file holds one IFC file, not {len(names)}"
             raise Refused("bad-record" if names else "missing-resource", message)
-        with open_part(archive, names[0]) as part:
-            return part.read()
+        return read_part(archive, names[0], most)
 
 
 def _refuse_other_content(content: bytes) -> None:

@@ -27,7 +27,7 @@ _LONGEST_NAME = 60
 def read_ifc(file: File) -> Document:
     """Return the bodies in metres, z up, sorted by GlobalId. Raises Refused without a file
     name."""
-    model = open_model(memoryview(file.data))
+    model = open_model(memoryview(file.data), file.permitted.most)
     elements = elements_of(model)
     bodies = elements.bodies
     if not bodies:

@@ -198,7 +198,7 @@ def _place_of(
     failures: list[Refused] = []
     for uri in uris:
         try:
-            located[uri] = places.of(path).locate(uri)
+            located[uri] = places.of(path).locate_small(uri)
         except Refused as error:
             failures.append(error)
     if len(located) > 1:

@@ -44,7 +44,7 @@ class ModelFiles:
         if (path, model) in self._read:
             return
         self._read.add((path, model))
-        root = read_tree(path, Path(path), *ROOTS, "robot")
+        root = read_tree(path, Path(path), self._places.permitted, *ROOTS, "robot")
         if len(self._read) > _MOST_FILES:
             root.refuse(f"more than {_MOST_FILES} files", "too-large")
         for element in root.below():
@@ -65,9 +65,9 @@ class ModelFiles:
     def _permit(self, element: Element, file: str, model: str) -> None:
         """Refuses a file that may not be opened. MuJoCo reports one that is missing."""
         try:
-            self._places.of(model).locate(file)
+            self._places.of(model).locate_small(file)
         except Refused as error:
-            if error.code == "outside-path":
+            if error.code in ("outside-path", "too-large"):
                 element.refuse(f"{file!r}: {error.message}", error.code)
 
     def _place(self, element: Element, file: str, model: str) -> str:

@@ -1,4 +1,4 @@
-"""Keeps files outside of the permitted folders closed.
+"""Keeps files closed that are outside of the permitted folders, or too large.
 
 USD opens each layer that a file names. So the layers inside are looked at first, and an empty layer
 in memory stands in for each file outside. The stage then uses that, and is refused.
@@ -15,7 +15,7 @@ from typing import Any
 from pxr import Ar, Sdf, Tf
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.opening import Context
+from satcheck.scene.opening import Context, exists, is_folder, size_of
 
 
 class Closed:
@@ -27,7 +27,7 @@ class Closed:
 
     def close(self, root: Any) -> None:
         """Puts empty layers for what the root layer, and the layers that it names, name outside.
-        Raises Refused for value clips outside, which USD opens late."""
+        Raises Refused for value clips outside, which USD opens late, and for what is too large."""
         variables = root.pseudoRoot.GetInfo("expressionVariables") or {}
         seen, waiting = {root.identifier}, [root]
         while waiting:
@@ -38,17 +38,28 @@ class Closed:
                 seen.add(place)
                 if not self.permits(place):
                     self._stand_in(place)
-                elif (inner := opened(place)) is not None:
+                    continue
+                self._refuse_large(place)
+                if (inner := opened(place)) is not None:
                     waiting.append(inner)
             for place in clips_of(layer):
                 if not self.permits(place):
                     raise self.refusal(place)
+                self._refuse_large(place)
 
     def permits(self, place: str) -> bool:
         return self._context.permits(Path(file_of(place)))
 
     def refusal(self, place: str) -> Refused:
         return self._context.refusal(f"layer {place!r}")
+
+    def _refuse_large(self, place: str) -> None:
+        file = file_of(place)
+        if exists(file) and not is_folder(file):  # the composition says what is missing
+            try:
+                self._context.permitted.most.refuse_beyond(size_of(file))
+            except Refused as error:
+                raise Refused(error.code, f"layer {place!r}: {error.message}") from None
 
     def _stand_in(self, place: str) -> None:
         if Path(file_of(place)).exists():

@@ -77,7 +77,7 @@ def open_stage(file: File) -> Stage:
     """Return the stage of a file. Raises Refused, and what the library raises."""
     closed, location = Closed(file.context), str(file.location)
     root = Sdf.Layer.FindOrOpen(location)
-    if root is not None and not file.permitted.anywhere:
+    if root is not None:
         closed.close(root)
     stage = Usd.Stage.Open(root or location)
     layers = [layer for layer in stage.GetUsedLayers(True) if not layer.anonymous]

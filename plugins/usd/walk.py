@@ -89,14 +89,9 @@ class Walk:
                 each.PruneChildren()
                 yield from self._instances(prim, frame)
             else:
-                self._refuse_too_many()
+                self._count += 1
+                limits.refuse_many(self._count, "prims with all instances")
                 yield self._with_matrix(prim, frame)
-
-    def _refuse_too_many(self) -> None:
-        self._count += 1
-        if self._count > limits.MAX_PLACEMENTS:
-            message = f"more than {limits.MAX_PLACEMENTS} prims with all instances: split the file"
-            raise Refused("too-large", message)
 
     def _with_matrix(self, prim: Any, frame: Frame) -> PlacedPrim:
         name = frame.name_of(prim)

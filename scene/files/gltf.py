@@ -243,9 +243,7 @@ class _Scene:
             raise Refused("count-mismatch", f"{where}: unclear count of instances")
         (count,) = counts
         self._copied += count
-        if self._copied > limits.MAX_PLACEMENTS:
-            message = f"more than {limits.MAX_PLACEMENTS} instances: split the file"
-            raise Refused("too-large", message)
+        limits.refuse_many(self._copied, "instances")
         for i in range(count):
             parts = (
                 () if rows is None else rows[width * i : width * (i + 1)] for rows, width in given

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from satcheck._native import readers
+from satcheck._native.readers import read_file
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.gltf_document import (
@@ -122,7 +123,7 @@ class Accessors:
         self._work = work
         self._buffers: dict[int, memoryview] = {}
         self._unpacked: dict[int, memoryview] = {}
-        self._unpacked_bytes = 0
+        self._made_bytes = 0
 
     def positions(self, index: int) -> Floats:
         """x, y, z of each vertex, all finite."""
@@ -200,10 +201,8 @@ class Accessors:
             return bytes(data), code, stride
         if accessor.buffer_view != NONE:
             values = self._rows(accessor, what, count, columns, code)
-        elif count > limits.MAX_ZEROS:
-            message = f"{count} elements without data, more than {limits.MAX_ZEROS}: write them out"
-            raise Refused("too-large", f"{what}: {message}")
         else:
+            self._make(count * row, f"{what}, which has no data")
             values = array(code, [0]) * (count * columns)
         if accessor.sparse:
             self._replace(values, columns, accessor.sparse, f"{what}: sparse data")
@@ -285,13 +284,7 @@ class Accessors:
         if size != self._views[number].byte_length:
             message = f"{packed.count} elements of {packed.byte_stride} bytes are not its length"
             raise Refused("count-mismatch", f"{where}: {message}")
-        self._unpacked_bytes += size
-        if self._unpacked_bytes > limits.MAX_UNPACKED_BYTES:
-            raise Refused(
-                "too-large",
-                f"meshopt data unpacks to {self._unpacked_bytes} bytes and more, beyond "
-                f"{limits.MAX_UNPACKED_BYTES}: unpack it before, or split the file",
-            )
+        self._make(size, f"{where}, unpacked")
         self._work.spend(size)
         stream = bytes(self._bytes(packed, where))
         unpacked = readers.unpack_meshopt(
@@ -300,6 +293,12 @@ class Accessors:
         if isinstance(unpacked, readers.ReadError):
             raise Refused(unpacked.code, f"{where}: {unpacked.message}")
         return unpacked
+
+    def _make(self, size: int, what: str) -> None:
+        """Count bytes that the file does not hold. All of them may be as many as those of a file.
+        Raises Refused."""
+        self._made_bytes += size
+        self._context.permitted.most.refuse_beyond(self._made_bytes, what)
 
     def _bytes(self, owner: BufferView | Meshopt, what: str) -> memoryview:
         """The bytes of its buffer that a view or its packed data names."""
@@ -342,12 +341,7 @@ class Accessors:
         name = unquote(uri)
         if ":" in uri or "\\" in name:
             raise Refused("outside-path", f"buffer {name!r} is not a relative path: refused")
-        path = self._context.find(f"buffer file {name!r}", name)
-        try:
-            size = min(size, path.stat().st_size)
+        with self._context.open(f"buffer file {name!r}", name) as (file, there):
+            size = min(size, there)
             self._work.spend(size)
-            with path.open("rb") as file:
-                return file.read(size)
-        except OSError as error:
-            message = f"buffer file {name!r} cannot be read: {error.strerror}"
-            raise Refused("unreadable-file", message) from None
+            return read_file(file.fileno(), size)

@@ -43,9 +43,7 @@ def read_native(file: File) -> Document:
 
 
 def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -> Document:
-    if len(objects) > limits.MAX_PLACEMENTS:
-        message = f"it has more than {limits.MAX_PLACEMENTS} objects: split the file"
-        raise Refused("too-large", message)
+    limits.refuse_many(len(objects), "objects")
     names = UniqueNames()
     parts = []
     for number, (name, mesh) in enumerate(objects, 1):

@@ -65,7 +65,7 @@ def _inspected(file: File, read: Document, *, apart: bool) -> Document:
     """The document with its meshes in the items. apart: an item for each component of a mesh."""
     said = list(read.warnings)
     shapes = [_shapes_of(file, part, said, apart=apart) for part in read.parts]
-    _refuse_too_many(sum(len(shapes[item.number]) for item in read.items))
+    limits.refuse_many(sum(len(shapes[item.number]) for item in read.items), "bodies")
     items = []
     for item in read.items:
         for mark, shape in shapes[item.number]:
@@ -85,12 +85,6 @@ def _inspected(file: File, read: Document, *, apart: bool) -> Document:
         issues=tuple(issue(code, message, file=file.path) for code, message in said),
         units=first.shape.units if isinstance(first.shape, MeshFile) else first.units,
     )
-
-
-def _refuse_too_many(bodies: int) -> None:
-    if bodies > limits.MAX_PLACEMENTS:
-        message = f"{bodies} bodies exceed {limits.MAX_PLACEMENTS}: split the file"
-        raise Refused("too-large", message)
 
 
 def _placed(
@@ -140,7 +134,7 @@ def _components(file: File, part: RawPart, raw: RawMesh, mesh: Mesh) -> Marked:
     pieces = mesh.welded().sorted().components(CRACK_WIDTH * resolution_of(raw, mesh))
     if len(pieces) < 2:
         return []
-    _refuse_too_many(len(pieces))
+    limits.refuse_many(len(pieces), "components")
     raw = replace(raw, warnings=())
     bodies: Marked = []
     flat: Marked = []

@@ -122,10 +122,9 @@ def refuse_explosion(
             open_.add(key)
             stack.append((key, True))
             stack.extend((child, False) for child, _ in within(key))
-    total = sum(totals[root] for root in roots)
-    if total > limits.MAX_PLACEMENTS:
-        message = f"its references expand to more than {limits.MAX_PLACEMENTS} elements: split it"
-        raise Refused("too-large", message)
+    limits.refuse_many(
+        sum(totals[root] for root in roots), "elements that its references expand to"
+    )
     if max((depths[root] for root in roots), default=0) > most_depth:
         raise Refused("too-large", f"elements are nested deeper than {most_depth}: flatten it")
 

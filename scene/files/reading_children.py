@@ -102,7 +102,7 @@ def read_in_child(
         answer = msgspec.msgpack.decode(reply, type=Reply[kind])  # type: ignore[valid-type]
     except WorkerError as error:
         note_lost_reader()
-        raise _lost(error, file, allowed.megabytes) from error
+        raise _lost(error, file, allowed.permitted.megabytes) from error
     except msgspec.DecodeError:
         message = "the reader's answer is damaged"
         raise Refused("reader-failed", message, file=file.path) from None

@@ -23,7 +23,8 @@ from satcheck.scene.files.slicer_config import CONFIGS, SIDE_FILES, volumes
 from satcheck.scene.files.threemf_model import ENCODINGS, Model, Object, part_name, read_model
 from satcheck.scene.files.threemf_vocabulary import RELATIONSHIP, RELATIONSHIPS, TYPES
 from satcheck.scene.files.xml_tree import read_elements
-from satcheck.scene.files.zip_guard import open_part, opened_zip
+from satcheck.scene.files.zip_guard import opened_zip, read_part
+from satcheck.scene.opening import Most
 from satcheck.scene.vocabulary import UnknownNames
 from satcheck.scene.words import listed
 
@@ -35,12 +36,13 @@ def read_3mf(file: File) -> Document:
     """Return the objects that the build of a 3MF package places. Raises Refused without a
     file name."""
     with opened_zip(memoryview(file.data), "a 3MF file") as package:
-        return _Package(package).read()
+        return _Package(package, file.permitted.most).read()
 
 
 class _Package:
-    def __init__(self, package: zipfile.ZipFile) -> None:
+    def __init__(self, package: zipfile.ZipFile, most: Most) -> None:
         self._package = package
+        self._most = most
         parts = [(part_name(name).lower(), name) for name in package.namelist()]
         self._names = dict(parts)
         self._twice = {
@@ -146,8 +148,7 @@ class _Package:
             raise Refused("bad-record", f"the package has two parts {part!r}")
         if name is None:
             raise Refused("missing-resource", f"the package has no part {part!r}")
-        with open_part(self._package, name) as stream:
-            return stream.read()
+        return read_part(self._package, name, self._most)
 
     def _model(self, part: str) -> Model:
         model = self._models.get(part)

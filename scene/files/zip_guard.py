@@ -1,4 +1,4 @@
-"""Opens untrusted zip archives. Damage is an error, and so is a part that unpacks to too much."""
+"""Opens untrusted zip archives. Damage is an error, and so is a part too large for a file."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import IO
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.files import limits
+from satcheck.scene.opening import Most
 
 
 @contextmanager
@@ -28,16 +27,8 @@ def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]
         raise Refused("unsupported-feature", f"zip: {error}") from None
 
 
-def open_part(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
-    """A part of the archive. Raises Refused if it unpacks to too much."""
+def read_part(archive: zipfile.ZipFile, name: str, most: Most) -> bytes:
+    """Return the content of a part. Raises Refused if it unpacks to too much."""
     entry = archive.getinfo(name)
-    inflation = entry.file_size / max(entry.compress_size, 1)
-    if entry.file_size > limits.MAX_PART_BYTES or (
-        entry.file_size > limits.SMALL_PART_BYTES and inflation > limits.MAX_INFLATION
-    ):
-        raise Refused(
-            "too-large",
-            f"part {name!r} unpacks {inflation:.0f}:1 to {entry.file_size} bytes, like an attack: "
-            "unpack it, and check what is in it",
-        )
-    return archive.open(entry)
+    most.refuse_beyond(entry.file_size, f"part {name!r}, unpacked")
+    return archive.read(entry)

@@ -24,6 +24,7 @@ from satcheck.scene.files.xml_tree import read_elements
 from satcheck.scene.opening import (
     NOTHING_ELSE,
     Context,
+    Most,
     Permitted,
     folders_of_environment,
     followed,
@@ -32,13 +33,13 @@ from satcheck.scene.opening import (
     note,
     note_folders_in,
     read_whole,
+    size_of,
 )
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
 _SUBSTITUTION = re.compile(r"\$[({]")
 _PACKAGE_XML = "package.xml"
 _MANIFESTS = (_PACKAGE_XML, "model.config")  # mark the root of a package, of a Gazebo model
-_MAX_BYTES = 1 << 20
 _PACKAGE_SCHEMES = frozenset(("package", "model"))
 _MODELS = "models"  # the usual name of a folder with Gazebo models, each a folder
 MODEL_MANIFESTS = ("model.config", "manifest.xml")  # the second is that of old Gazebo models
@@ -64,13 +65,15 @@ class FilePlaces:
         self._root = self._package()
         words = f"{followed(self._root)}, where the package of the file is"
         self._context = Context(self._folder, permitted, self._root, words)
+        self.permitted = permitted
         self._places = {file: self}
 
     def of(self, file: str) -> FilePlaces:
         """The places of an included file, which may open what this one may open."""
         if file not in self._places:
-            permitted, own = self._context.permitted, (self._context.own, followed(self._folder))
-            permitted = replace(permitted, folders=(*permitted.folders, *map(str, own)))
+            own = self._context.own, followed(self._folder)
+            folders = (*self.permitted.folders, *map(str, own))
+            permitted = replace(self.permitted, folders=folders)
             self._places[file] = FilePlaces(file, self._packages, permitted)
         return self._places[file]
 
@@ -106,6 +109,12 @@ class FilePlaces:
         if may_be_model and "/" not in rest:
             return self._in_package(rest, models)
         raise place
+
+    def locate_small(self, uri: str) -> Path:
+        """The same of a file that a library opens by itself, and that is not too large."""
+        place = self.locate(uri)
+        self.permitted.most.refuse_beyond(size_of(place))
+        return place
 
     def _plain(self, rest: str, models: bool, *, quoted: bool) -> Path | Refused:
         """Beside the file, or else in a folder of the environment, or else, of file://, in a folder
@@ -150,7 +159,7 @@ class FilePlaces:
             folder = self._packages.get("/".join(parts[:length]))
             if folder is not None:
                 inside = "/".join(parts[length:])
-                if not Context(folder, self._context.permitted).permits(folder / inside):
+                if not Context(folder, self.permitted).permits(folder / inside):
                     raise Refused("outside-path", f"the path leaves {folder}: refused")
                 place = _existing(folder, inside, models, quoted=True)
                 if isinstance(place, Refused):
@@ -170,9 +179,10 @@ class FilePlaces:
         environment = folders_of_environment()
         for root in environment:
             yield root if root.name == name else root / name
+        most = self.permitted.most_of_tree
         for root in (self._root, *environment):
             for folder in (root, *_folders_in(root)):
-                if _name_in_manifest(folder) == name:
+                if _name_in_manifest(folder, most) == name:
                     yield folder
 
     def _package(self) -> Path:
@@ -191,12 +201,12 @@ class FilePlaces:
         return self._context.permits(place) or _is_from_environment(place)
 
 
-def _name_in_manifest(folder: Path) -> str | None:
+def _name_in_manifest(folder: Path, most: Most) -> str | None:
     """The <name> in the package.xml of a folder; None if there is no readable one. Then the name of
     the folder counts."""
     place = folder / _PACKAGE_XML
     try:
-        root = read_elements(read_whole(str(place), place, _MAX_BYTES))
+        root = read_elements(read_whole(str(place), place, most))
     except Refused:
         return None
     name = root.find("name") if root.tag == "package" else None

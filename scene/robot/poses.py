@@ -24,7 +24,6 @@ from satcheck.scene.robot.model import Joint, Robot, Values
 from satcheck.scene.words import why_unreadable
 
 Pose = Mapping[str, Values]
-_MAX_BYTES = 256 << 20
 # Significant digits of a random value. A user can then read and retype a pose; the rounded pose is
 # the one that is checked.
 _DIGITS = 6
@@ -67,7 +66,7 @@ def read_path(file: str) -> list[Pose]:
 
 def _text(path: str) -> str:
     try:
-        return read_whole(path, Path(path), _MAX_BYTES).decode("utf-8-sig")
+        return read_whole(path, Path(path)).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise SatcheckError("bad-encoding", "the file of poses is not UTF-8", file=path) from None
     except SatcheckError as error:

@@ -20,9 +20,8 @@ from satcheck.scene.files.xml_tree import (
     parse_xml,
     read_elements,
 )
-from satcheck.scene.opening import StrPath, read_whole
+from satcheck.scene.opening import Permitted, StrPath, read_whole
 
-_MAX_BYTES = 64 << 20
 _ERB = b"<%"
 _EXPAND_ERB = "this is ERB, a macro language: expand it first (erb FILE.erb > FILE)"
 _XACRO_NAMESPACE = "xacro"  # at the end of its URI; its prefix may differ
@@ -36,22 +35,22 @@ _AMPERSAND = re.compile(rb"&(?!(?:[A-Za-z_:][\w:.-]*|#[0-9]+|#x[0-9A-Fa-f]+);)")
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
-def required_robot_reader(path: str, location: StrPath) -> Reader:
+def required_robot_reader(path: str, location: StrPath, permitted: Permitted) -> Reader:
     """Return the reader of a robot, which its outermost element decides. path: of the file, for
     messages; location: where it lies. Raises Refused if there is none."""
     reader = reader_of_robot(location)
     if reader is not None:
         return reader
-    root = read_tree(path, location)  # a slip may stand before the element
+    root = read_tree(path, location, permitted)  # a slip may stand before the element
     return robot_reader(root.tag) or _refuse_root(root, robots())
 
 
-def read_tree(path: str, location: StrPath, *roots: str) -> Element:
+def read_tree(path: str, location: StrPath, permitted: Permitted, *roots: str) -> Element:
     """Return the outermost element, whose tag has to be one of `roots`, if there are any.
 
     Text between elements is ignored. Raises Refused, with the line.
     """
-    document = _parse(path, read_whole(path, location, _MAX_BYTES))
+    document = _parse(path, read_whole(path, location, permitted.most_of_tree))
     if roots and document.tag not in roots:
         _refuse_root(document, roots)
     _refuse_macros(document)

@@ -11,6 +11,7 @@ from msgspec import Struct
 
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.issue import Issue
+from satcheck.scene.opening import NOTHING_ELSE, Permitted
 from satcheck.scene.robot.model import State, Values
 from satcheck.scene.robot.reading import read_tree
 from satcheck.scene.robot.slips import Place, Slips, attributes, because, elements
@@ -80,9 +81,9 @@ class Srdf(Struct, frozen=True):
         return None
 
 
-def read_srdf(path: str, location: Path) -> Srdf:
-    """Raises Refused with the file, the line and the element."""
-    root = read_tree(path, location, "robot")
+def read_srdf(path: str, location: Path, permitted: Permitted = NOTHING_ELSE) -> Srdf:
+    """permitted: how large it may be. Raises Refused with the file, the line and the element."""
+    root = read_tree(path, location, permitted, "robot")
     slips = Slips()
     slips.look(root, ROBOT)
     disabled = {_pair(e): e.attributes.get("reason", "") for e in root.all("disable_collisions")}

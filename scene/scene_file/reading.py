@@ -48,7 +48,7 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
     path: for messages; location: where it lies. permitted: where the meshes of a scene of the form
     satcheck.scene/1 may lie. Raises Refused.
     """
-    text = SceneText(path, location)
+    text = SceneText(path, location, permitted.most)
     values, schema = text.document, _schema_of(text)
     if schema == SIMPLE and not text.is_toml:
         from satcheck.scene.scene_file.simple import read_scene
@@ -62,10 +62,10 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
     return _read(text, permitted, document.Scene)
 
 
-def read_rules_file(path: str, location: Path) -> SceneFile:
+def read_rules_file(path: str, location: Path, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
     """Reads and checks a file of rules, which has the keys of satcheck.scene/1 but for those about
     bodies; `schema` may be left out. path, location: as above. Raises Refused."""
-    text = SceneText(path, location)
+    text = SceneText(path, location, permitted.most)
     schema = _schema_of(text)
     if not isinstance(text.document, dict) or schema not in (None, SCENE_1):
         raise _not_a_scene(path, schema)
@@ -211,7 +211,7 @@ def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
     path: of the scene file, for messages; location: on disk. permitted: where meshes may lie beside
     its folder.
     """
-    context = Context(location.parent, permitted)
+    context, folder = Context(location.parent, permitted), os.path.dirname(path)  # noqa: PTH120
 
     @cache
     def found(mesh: str, part: str | None) -> FilePart:
@@ -225,8 +225,8 @@ def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
             place = context.find(f"mesh file {shown(mesh)}", mesh)
         except Refused as error:
             raise Wrong(error.message, "mesh", code=error.code) from None
-        name = os.path.normpath(Path(path).parent / mesh).replace(os.sep, "/")
-        return FilePart(name, str(place))
+        name = os.path.normpath(os.path.join(folder, mesh))  # noqa: PTH118
+        return FilePart(name.replace(os.sep, "/"), place)
 
     return found
 

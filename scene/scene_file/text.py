@@ -20,14 +20,13 @@ from typing import Any, TypeVar
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.limits import MAX_DEPTH
-from satcheck.scene.opening import read_whole
+from satcheck.scene.opening import OWN_FILE, Most, read_whole
 from satcheck.scene.table import Keys, Wrong
 from satcheck.scene.words import why_unreadable
 
 T = TypeVar("T")
 
 MOST = 20  # errors told about one file
-_MAX_BYTES = 512 << 20  # a million bodies, each with a matrix
 _TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
 _TEXT = r'"[^"\\\n]*+(?:\\.[^"\\\n]*+)*+"'
 _NUMBERS = r"""\[[^][{}"'#]*+\]"""
@@ -53,11 +52,11 @@ class SceneText:
     path: for messages. location: where it lies. document: its values. Raises Refused.
     """
 
-    def __init__(self, path: str, location: Path) -> None:
+    def __init__(self, path: str, location: Path, most: Most = OWN_FILE) -> None:
         self.path = path
         self.location = location
         self.is_toml = is_toml(location)
-        self._text = read_text(path, location)
+        self._text = read_text(path, location, most)
         self._wrong: list[Wrong] = []
         if self.is_toml:
             self.document: Any = _toml(path, self._text)
@@ -152,9 +151,9 @@ def is_toml(location: Path) -> bool:
     return location.suffix.lower() == ".toml"
 
 
-def read_text(path: str, location: Path) -> str:
+def read_text(path: str, location: Path, most: Most = OWN_FILE) -> str:
     """Raises Refused. path: for messages."""
-    data = read_whole(path, location, _MAX_BYTES)
+    data = read_whole(path, location, most)
     try:
         return data.removeprefix(BOM_UTF8).decode()  # line ends as they are
     except UnicodeDecodeError:
@@ -164,7 +163,8 @@ def read_text(path: str, location: Path) -> str:
 def parse_toml(text: str) -> dict[str, Any]:
     """Raises ValueError for text that is not TOML, and for a key of many parts: the parser takes
     time and memory by the square of their number."""
-    if text.count(".") > MAX_DEPTH and _LONG_KEY.search(text):
+    dotted = (line for line in text.split("\n") if line.count(".") >= MAX_DEPTH)
+    if any(map(_LONG_KEY.search, dotted)):
         raise ValueError(f"a key has more than {MAX_DEPTH} parts")
     return tomllib.loads(text)
 

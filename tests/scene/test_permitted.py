@@ -157,3 +157,19 @@ def test_a_name_that_no_system_takes_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Refused, match="NUL") as caught:
         Context(tmp_path, NOTHING_ELSE).find("buffer file", "a\0.bin")
     assert caught.value.code == "bad-record"
+
+
+@needs_links
+def test_a_link_to_a_file_outside_beside_files_that_lie_inside(tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    (tmp_path / "secret.bin").write_bytes(b"1")
+    (tmp_path / "in" / "a.bin").write_bytes(b"1")
+    (tmp_path / "in" / "b.bin").symlink_to(tmp_path / "secret.bin")
+    (tmp_path / "in" / "c.bin").symlink_to(tmp_path / "in" / "a.bin")
+    context = Context(tmp_path / "in", NOTHING_ELSE)
+    assert context.find("a", "a.bin") == str(tmp_path / "in" / "a.bin")
+    assert context.permits(tmp_path / "in" / "c.bin")
+    for name in ("b.bin", "../secret.bin", "../in/../secret.bin"):
+        with pytest.raises(Refused) as caught:
+            context.find("it", name)
+        assert caught.value.code == "outside-path"

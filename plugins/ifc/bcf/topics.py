@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 from uuid import NAMESPACE_URL, uuid5
 
@@ -20,6 +19,7 @@ from satcheck.audit.messages import kind_of, measured
 from satcheck.audit.words import counted, is_listed, worst_first
 from satcheck.plugins.ifc.model import unpacked
 from satcheck.scene.errors import Refused
+from satcheck.scene.opening import OWN_FILE, read_whole
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -193,7 +193,7 @@ def _project_of(file: str) -> str | None:
     """The GlobalId of the project of an IFC file; None: the file is not there any more, or names no
     project."""
     try:
-        match = _PROJECT.search(unpacked(memoryview(Path(file).read_bytes())))
-    except (OSError, Refused):
+        match = _PROJECT.search(unpacked(memoryview(read_whole(file, file)), OWN_FILE))
+    except Refused:
         return None
     return match[1].decode("ascii", "replace") if match else None
