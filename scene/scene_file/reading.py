@@ -81,6 +81,8 @@ def _schema_of(text: SceneText) -> object:
 def _not_a_scene(path: str, schema: object) -> Refused:
     told = "" if schema is None else f", but {shown(schema)}"
     message = f'not a scene file: "schema" is not "{SCENE_1}"{told}'
+    if isinstance(schema, str) and schema.startswith("satcheck."):
+        message += ": it is a result of satcheck, so give the files that it is about"
     return Refused("bad-scene", message, file=path)
 
 
