@@ -256,7 +256,7 @@ _fractions = np.frompyfunc(Fraction, 1, 1)
 
 
 def exact_normal(world: Floats, axis: Indices) -> Exact:
-    corners: Exact = _fractions(world[axis])
+    corners: Any = _fractions(world[axis])
     p, q, r, s = corners
     (ux, uy, uz), (vx, vy, vz) = q - p, s - r
     return np.array([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], dtype=object)
