@@ -129,9 +129,10 @@ def _in_space(
     count = len(a.edges) * len(b.edges)
     _require_few(*stated, count, MOST_EDGE_PAIRS, "pairs of edges of triangles")
     made = candidates(a, b)
-    for kept in (~made.noise, made.noise | True):
+    faces = len(a.face) + len(b.face)
+    for kept in (made.plain, made.plain | True):
         what = "pairs of edges that can make a face of their Minkowski difference"
-        _require_few(*stated, int(kept.sum()) - made.faces, MOST_FACET_PAIRS, what)
+        _require_few(*stated, int(kept.sum()) - faces, MOST_FACET_PAIRS, what)
         axes = axes_shown(made.where(kept), world, a.points, b.points)
         if relation_shown(axes) == relation:
             break
@@ -142,7 +143,7 @@ def _in_space(
     counts = report.AxisCounts(
         candidates=a.faces + b.faces + a.sides * b.sides,
         edge_pairs=a.sides * b.sides,
-        facet_pairs=int((made.counted & ~made.noise).sum()) - made.faces,
+        facet_pairs=int(made.plain.sum()) - faces,
         directions=(
             direction_count(a.normal, a.face_off),
             direction_count(b.normal, b.face_off),
@@ -192,7 +193,7 @@ def _in_plane(pair: Pair, plane: Plane) -> Compared:
     off = np.minimum(STEPS_OFF * steps / length, WORST_TOLERANCE)
     index = np.full((m + n, 2), -1)
     index[a, 0], index[b, 1] = a, b - m
-    made = Candidates(axes, off, index, np.full(m + n, True), np.full(m + n, False))
+    made = Candidates(axes, off, index, plain=np.full(m + n, True))
     shown = axes_shown(made, world, a, b, closer=pair.closer)
     unit, _ = directions(world, axes)
     differ = direction_count(unit[a], off[a]), direction_count(unit[b], off[b]), 0
@@ -222,7 +223,7 @@ def axes_shown(
     for number, group in enumerate(groups, 1):
         row = group[found.gap[group].argmax()]
         index_a, index_b = made.index[group[0]].tolist()
-        features = made.index[group[made.counted[group]]].tolist()
+        features = made.index[group[made.plain[group]]].tolist()
         known = not closer or low[row] > 0 or high[row] < 0
         axes.append(
             report.CandidateAxis(

@@ -85,26 +85,18 @@ class Candidates(Struct, frozen=True):
     """In the order of testing: faces of A, faces of B, pairs of edges.
 
     axes: (m, 4). tolerance: (m,), how far each may be off, radians. index: (m, 2), the face or edge
-    of A and of B; -1: none. counted: (m,), not of an edge within a face. noise: (m,), of edges that
-    are parallel within the precision of the input: such an axis means nothing to the eye, and an
-    exact proof may need it.
+    of A and of B; -1: none. plain: (m,), not of an edge within a face, nor of edges that are
+    parallel within the precision of the input: such an axis means nothing to the eye, and an exact
+    proof may need it.
     """
 
     axes: Indices
     tolerance: Floats
     index: Indices
-    counted: Flags
-    noise: Flags
-
-    @property
-    def faces(self) -> int:
-        return int((self.index < 0).any(axis=1).sum())
+    plain: Flags
 
     def where(self, kept: Flags) -> Candidates:
-        return Candidates(
-            *(self.axes[kept], self.tolerance[kept], self.index[kept]),
-            *(self.counted[kept], self.noise[kept]),
-        )
+        return Candidates(self.axes[kept], self.tolerance[kept], self.index[kept], self.plain[kept])
 
 
 class Shadows(Struct, frozen=True):
@@ -176,21 +168,19 @@ def _edges(corners: Indices) -> tuple[Indices, Indices, Indices]:
 def candidates(a: Hull, b: Hull) -> Candidates:
     """Return the face normals, and the pairs of edges that can make a face of the difference."""
     rows = _crossing(a, b)
-    i, j = rows.T
-    sine = np.linalg.norm(np.cross(a.along[i], b.along[j]), axis=1)
+    sine = np.linalg.norm(np.cross(a.along[rows[:, 0]], b.along[rows[:, 1]]), axis=1)
     rows, sine = rows[sine > FLAT], sine[sine > FLAT]
     i, j = rows.T
-    edges_off = a.edge_off[i] + b.edge_off[j]
+    off = a.edge_off[i] + b.edge_off[j]
+    proper = (i < a.sides) & (j < b.sides) & (sine > off)
     faces = np.full((len(a.face) + len(b.face), 2), -1)
     faces[: len(a.face), 0], faces[len(a.face) :, 1] = a.face, b.face
-    no_edge = np.zeros(len(faces), dtype=bool)
-    worst = np.minimum(edges_off / sine, WORST_TOLERANCE)
+    worst = np.minimum(off / sine, WORST_TOLERANCE)
     return Candidates(
         axes=np.concatenate((a.triangles, b.triangles, np.hstack((a.edges[i], b.edges[j])))),
         tolerance=np.concatenate((a.face_off, b.face_off, worst)),
         index=np.concatenate((faces, rows)),
-        counted=np.concatenate((~no_edge, (rows < (a.sides, b.sides)).all(axis=1))),
-        noise=np.concatenate((no_edge, sine <= edges_off)),
+        plain=np.concatenate((np.full(len(faces), True), proper)),
     )
 
 

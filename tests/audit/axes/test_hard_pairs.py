@@ -39,7 +39,7 @@ def shown_by_axes(pair: ConvexPair) -> str:
     step = float(np.abs(world).max()) * 2.0**-53
     a, b = hull_of(first, 0, world, step), hull_of(second, first.vertex_count, world, step)
     made = candidates(a, b)
-    return relation_shown(axes_shown(made.where(~made.noise), world, a.points, b.points))
+    return relation_shown(axes_shown(made.where(made.plain), world, a.points, b.points))
 
 
 @pytest.mark.parametrize("family", SMALL, ids=lambda family: family.CATEGORY)
