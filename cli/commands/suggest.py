@@ -5,16 +5,13 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Mapping, Sequence
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import click
 from msgspec.structs import replace
 
-from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import Limits
-from satcheck.audit.batch.slot_server import Wanted
 from satcheck.audit.settings import Settings
 from satcheck.audit.suggest import MEASURED, Suggestions, suggest, suggestions_of
 from satcheck.cli import exit_codes, option, scene_option
@@ -27,10 +24,8 @@ from satcheck.cli.option import settings_of
 from satcheck.cli.output import Document, issue_line, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
-from satcheck.cli.worlds import asset_names, check_options
-from satcheck.report.assets import Result
+from satcheck.cli.worlds import asset_names, check_each, check_options
 from satcheck.report.json import document as json_document
-from satcheck.report.json import read_line
 from satcheck.scene import Scene
 from satcheck.scene.opening import is_folder
 from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed
@@ -142,12 +137,7 @@ def _of_assets(inputs: Inputs, options: Mapping[str, Any]) -> Suggestions:
     inputs = replace(inputs, folders=tuple(assets.folders))
     terms = check_options(inputs, {**options, **MEASURED}, None, None)
     worlds = [(file,) for file in assets.files]
-    reports = {}
-    with Bar("assets") as bar:
-        for answer in chain.from_iterable(
-            check_locally(worlds, terms, Limits(), os.cpu_count() or 1, Wanted(kept=False))
-        ):
-            reports[answer.world[0]] = read_line(answer.line, Result).report
-            if bar is not None:
-                bar(len(reports), len(worlds))
-    return suggestions_of({file: reports[file] for file in assets.files})
+    checked = check_each(worlds, terms, Limits(), os.cpu_count() or 1)
+    if len(checked) < len(worlds):  # a rule may be missing, or another pair have its names
+        raise KeyboardInterrupt
+    return suggestions_of({world[0]: asset.report for world, asset in checked.items()})
