@@ -8,7 +8,7 @@ whose arcs cross on the Gauss map, because only they make a face of the Minkowsk
 
 An axis is a row of four points, p q r s: the line along (q - p) x (s - r). So it is known exactly
 although its unit direction is rounded. Float64 with a bound of its error decides most signs of
-gaps; rational numbers decide the others, after J. R. Shewchuk's plan (1997).
+gaps; integers decide the others, after J. R. Shewchuk's plan (1997).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from satcheck.core.rounding import UNIT_ROUNDOFF
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
-Exact = NDArray[Any]  # of Fractions
+Integers = NDArray[Any]  # of Python, of any size
 
 # How far the corners of two triangles of one flat face may be off each other's planes, in steps of
 # the coordinates: the plane through three of four corners is extrapolated to the fourth.
@@ -45,13 +45,13 @@ _GENERIC = np.array([0.5384, 0.3217, 0.7789])
 # Of a component of a float64 cross product, times both lengths: one rounding in each of the two
 # differences, 3 in the product; times the square root of 3 for the vector.
 CROSS_ROUNDOFFS = 12
-# A direction that is off by more (radians) is computed again, from rational numbers.
+# A direction that is off by more (radians) is computed again, from integers.
 TRUSTED_DIRECTION = 1e-12
 # Of a unit direction from these: each component, its norm and the quotient are rounded.
 EXACT_DIRECTION = 8 * UNIT_ROUNDOFF
 # Of a height: a rounded difference from the centre, 3 products, 2 sums; times the root of 3.
 HEIGHT_ROUNDOFFS = 16
-# Of the gap that follows from rational numbers: quotient, root and product.
+# Of the gap that follows from integers: quotient, root and product.
 VALUE_ROUNDOFFS = 8
 
 
@@ -242,11 +242,15 @@ def direction_count(unit: Floats, tolerance: Floats) -> int:
     return len(np.unique(first_parallel(unit, tolerance)))
 
 
-_fractions = np.frompyfunc(Fraction, 1, 1)
+def integers(world: Floats) -> tuple[Integers, int]:
+    """Return the coordinates times a power of two, and this."""
+    ratios = [value.as_integer_ratio() for value in world.ravel().tolist()]
+    scale = max(divisor for _, divisor in ratios)
+    whole = [number * (scale // divisor) for number, divisor in ratios]
+    return np.array(whole, dtype=object).reshape(world.shape), scale
 
 
-def exact_normal(world: Floats, axis: Indices) -> Exact:
-    corners: Any = _fractions(world[axis])
+def exact_normal(corners: Integers) -> Integers:
     p, q, r, s = corners
     (ux, uy, uz), (vx, vy, vz) = q - p, s - r
     return np.array([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], dtype=object)
@@ -263,7 +267,7 @@ def directions(world: Floats, axes: Indices) -> tuple[Floats, Floats]:
         off = np.where(length > 0, CROSS_ROUNDOFFS * UNIT_ROUNDOFF * room / length, np.inf)
         unit = np.where(length[:, None] > 0, across / length[:, None], 0.0)
     for k in np.flatnonzero(~(off <= TRUSTED_DIRECTION)):
-        normal = exact_normal(world, axes[k])
+        normal = exact_normal(integers(world[axes[k]])[0])
         largest = abs(normal).max()
         scaled = (normal / (largest or 1)).astype(float)
         unit[k] = scaled / np.linalg.norm(scaled) if largest else 0.0
@@ -290,22 +294,32 @@ def shadows(world: Floats, axes: Indices, a: Indices, b: Indices) -> Shadows:
     ends[turned] = -ends[turned][:, [1, 0, 3, 2]]
     gap, bound = ends[:, 2] - ends[:, 1], 2 * heights_off
     sign = np.sign(gap).astype(np.int8)
-    for k in np.flatnonzero(np.abs(gap) <= bound):
-        sign[k], gap[k] = exact_gap(world, axes[k], a, b)
+    unsure = np.flatnonzero(np.abs(gap) <= bound)
+    exact, scale = integers(world) if len(unsure) else (world, 1)
+    for k in unsure:
+        ends_of = (side[_may_end(local[side] @ unit[k], bound[k])] for side in (a, b))
+        sign[k], gap[k] = exact_gap(exact, scale, axes[k], *ends_of)
         bound[k] = VALUE_ROUNDOFFS * UNIT_ROUNDOFF * abs(gap[k])
     places = _heights(unit, centre[None, :])
     return Shadows(unit, ends[:, :2] + places, ends[:, 2:] + places, gap, bound, sign)
 
 
-def exact_gap(world: Floats, axis: Indices, a: Indices, b: Indices) -> tuple[int, float]:
+def _may_end(heights: Floats, off: float) -> Flags:
+    """Return whether each point may be the lowest or the highest. off: of a difference of two."""
+    return (heights <= heights.min() + off) | (heights >= heights.max() - off)
+
+
+def exact_gap(
+    exact: Integers, scale: int, axis: Indices, a: Indices, b: Indices
+) -> tuple[int, float]:
     """Return sign and value of the larger of the two gaps along an axis, B beyond A and A beyond
     B."""
-    normal = exact_normal(world, axis)
-    on_a, on_b = ((_fractions(world[side]) * normal).sum(axis=1) for side in (a, b))
+    normal = exact_normal(exact[axis])
+    on_a, on_b = ((exact[side] * normal).sum(axis=1) for side in (a, b))
     gap = max(on_b.min() - on_a.max(), on_a.min() - on_b.max())
     largest = abs(normal).max()
     length = float(np.linalg.norm((normal / largest).astype(float)))
-    return (gap > 0) - (gap < 0), float(gap / largest) / length
+    return (gap > 0) - (gap < 0), float(Fraction(gap, largest * scale)) / length
 
 
 def _points_back(unit: Floats, ends: Floats, off: Floats) -> Flags:

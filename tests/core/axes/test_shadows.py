@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from satcheck.core.axes import Floats, Indices, exact_normal, shadows
+from satcheck.core.axes import Floats, Indices, exact_normal, integers, shadows
 from tests.oracles.random_shapes import random_quaternion, rotation_matrix
 
 UNIT = 1e-15
@@ -50,7 +50,8 @@ def test_signs_are_those_of_rational_numbers(kind: str) -> None:
     seen = set()
     for _ in range(30):
         points, corners = random_case(rng, kind)
-        corners = corners[[any(exact_normal(points, row)) for row in corners]]
+        exact, _ = integers(points)
+        corners = corners[[any(exact_normal(exact[row])) for row in corners]]
         found = shadows(points, corners, a, b)
         size = float(np.ptp(points, axis=0).max())
         assert np.abs(np.linalg.norm(found.direction, axis=1) - 1).max() <= UNIT
