@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 from msgspec.structs import replace
 
 from satcheck.audit.batch.options import Limits
@@ -85,7 +86,8 @@ def command(
             raise click.UsageError("a robot in a folder stands as its file says: give it alone")
         result, robot = _of_assets(inputs, options), ""
     else:
-        if inputs.exclude:
+        source = click.get_current_context().get_parameter_source("exclude")
+        if source is ParameterSource.COMMANDLINE:  # a config file is about other commands, too
             raise click.UsageError("--exclude leaves out files of a folder, and none is given")
         scene = load(inputs)
         if form == "srdf" and len(scene.robots) != 1:

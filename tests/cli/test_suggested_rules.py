@@ -283,6 +283,8 @@ def test_files_of_a_folder_can_be_left_out(tmp_path: Path) -> None:
     ran = satcheck("suggest", "kit/table.glb", "--exclude", "*.3mf", cwd=tmp_path)
     assert ran.code == 2
     assert "--exclude leaves out files of a folder" in ran.err
+    (tmp_path / "satcheck.toml").write_text('exclude = ["*.3mf"]\n')
+    assert satcheck("suggest", "kit/table.glb", cwd=tmp_path).code == 0
 
 
 @pytest.mark.parametrize("command", [(), ("suggest",)])
