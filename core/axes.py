@@ -306,7 +306,7 @@ def shadows(world: Floats, axes: Indices, a: Indices, b: Indices) -> Shadows:
 
 def _may_end(heights: Floats, off: float) -> Flags:
     """Return whether each point may be the lowest or the highest. off: of a difference of two."""
-    return (heights <= heights.min() + off) | (heights >= heights.max() - off)
+    return np.asarray((heights <= heights.min() + off) | (heights >= heights.max() - off))
 
 
 def exact_gap(
