@@ -229,22 +229,11 @@ def _cpu_seconds() -> float:
 
 
 def _boolean(bodies: Bodies, settings: Settings) -> Row:
-    """Measure the common volume by manifold3d, in a child process of its own, twice. Raises
-    SatcheckError if there is no volume."""
+    """Measure the common volume by manifold3d, in a child process of its own, twice."""
     seconds, megabytes = settings.volume_seconds, settings.volume_megabytes
-    times = []
     with VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
-        for _ in range(2):
-            start = perf_counter()
-            pair = pair_of(bodies, settings, meter)
-            if pair.curved:
-                raise SatcheckError("curved-shape", "a curved shape has no triangles")
-            draft = Draft(pair, exact="penetrating")
-            measure_volume(draft)
-            times.append(1e6 * (perf_counter() - start))
-    volume, error = draft.volume, draft.volume_error
-    if volume is None or error is None:
-        raise SatcheckError("no-volume", draft.reason or "no volume")
+        volume, error, cold = _volume(bodies, settings, meter)
+        *_, cached = _volume(bodies, settings, meter)
     known = volume == 0 or volume > error
     return Row(
         rung="boolean",
@@ -253,9 +242,22 @@ def _boolean(bodies: Bodies, settings: Settings) -> Row:
         volume=volume,
         volume_error=error,
         reason=None if known else "the volume lies within its own error",
-        cold=_times(times[:1]),
-        cached=_times(times[1:]),
+        cold=_times([cold]),
+        cached=_times([cached]),
     )
+
+
+def _volume(bodies: Bodies, settings: Settings, meter: VolumeMeter) -> tuple[float, float, float]:
+    """Return the volume, its error and the microseconds. Raises SatcheckError if there is none."""
+    start = perf_counter()
+    pair = pair_of(bodies, settings, meter)
+    if pair.curved:
+        raise SatcheckError("curved-shape", "a curved shape has no triangles")
+    draft = Draft(pair, exact="penetrating")
+    measure_volume(draft)
+    if draft.volume is None or draft.volume_error is None:
+        raise SatcheckError("no-volume", draft.reason or "no volume")
+    return draft.volume, draft.volume_error, 1e6 * (perf_counter() - start)
 
 
 def _truth(exact: Runs) -> Truth:
