@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import combinations, product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from msgspec import Struct
 
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 # The code of an issue about a rule that selects no pair.
 UNUSED_RULE = "unused-rule"
+# How the reasons of rules begin that `satcheck suggest` writes.
+SUGGESTED = "suggested: "
 # The largest world coordinate. A body that is moved out of another, by twice this at most, stays in
 # the range of the core.
 LARGEST_PLACED = 2e44
@@ -258,5 +260,9 @@ def code_of_placing(error: ArithmeticError | ValueError) -> str:
 
 
 def _unused(rule: Rule) -> Issue:
+    """A suggested rule only permits, and may be about another asset of its folder."""
     message = f"{rule.name}: the rule selects no pair of bodies"
-    return Issue(UNUSED_RULE, "warning", None, rule.file, message, rule.line)
+    severity: Literal["warning", "note"] = "warning"
+    if rule.reason.startswith(SUGGESTED) and not (rule.clearance or rule.tolerance):
+        severity = "note"
+    return Issue(UNUSED_RULE, severity, None, rule.file, message, rule.line)

@@ -16,8 +16,11 @@ from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.summary import tool
 from satcheck.core.conventions import LARGEST_LENGTH
+from satcheck.core.errors import SatcheckError
 from satcheck.report.report import OVERLAPS, Finding, Issue, Report
 from satcheck.report.suggestions import Names, Suggestion, SuggestionsReport, Unchecked, Why
+from satcheck.scene.bodies import UNITS_UNKNOWN
+from satcheck.scene.units import MICROMETRES, ratio, unit_of
 
 if TYPE_CHECKING:
     from satcheck.audit.settings import Settings
@@ -111,22 +114,26 @@ def suggestions_of(
     samples: SamplesReport | None = None,
 ) -> Suggestions:
     """reports: of checks with MEASURED, by asset; None: of the only scene, with these robots, in
-    these samples. At least one."""
+    these samples. At least one. Raises SatcheckError (`units-unknown`) where some assets with
+    overlaps state a unit of length, and others do not."""
     suggested: list[Suggestion] = []
     unchecked: list[Unchecked] = []
     undecided: dict[str, str] = {}
     may_meet = set()
     issues = dict.fromkeys(samples.issues if samples else ())
+    tallies = {(tally.a, tally.b): tally for tally in samples.pairs} if samples else {}
     poses = samples.summary.samples if samples else 0
+    units = _common_units(reports)
     for asset, report in reports.items():
         place = {body.id: number for number, body in enumerate(report.bodies)}
         findings = {(finding.a, finding.b): finding for finding in report.findings}
-        tallies = {(tally.a, tally.b): tally for tally in samples.pairs} if samples else {}
-        pairs = {*findings, *tallies, *robots.adjacent}
+        own, common = unit_of(report.units), unit_of(units)
+        scale = ratio(own, common) if own and common else 1.0
         issues |= dict.fromkeys(report.issues)
+        pairs = {*findings, *tallies, *robots.adjacent}
         for a, b in sorted(pairs, key=lambda pair: (place[pair[1]], place[pair[0]])):
             finding, tally = findings.get((a, b)), tallies.get((a, b))
-            made = _suggestion(a, b, finding, tally, robots, poses)
+            made = _suggestion(a, b, finding, tally, robots, poses, scale)
             reason = _open_question(finding, tally)
             if isinstance(made, Unchecked):
                 unchecked.append(replace(made, asset=asset))
@@ -138,10 +145,9 @@ def suggestions_of(
             links = robots.links_of(a, b)
             if links and not (isinstance(made, Suggestion) and made.why == "never"):
                 may_meet.add(frozenset(links))
-    units = {report.units for report in reports.values() if report.bodies}
     document = SuggestionsReport(
         tool=tool(),
-        units=units.pop() if len(units) == 1 else None,
+        units=units,
         poses=poses,
         suggestions=tuple(suggested),
         undecided=len(undecided),
@@ -151,6 +157,26 @@ def suggestions_of(
     return Suggestions(document, ids, undecided, frozenset(may_meet), tuple(issues))
 
 
+def _fails(finding: Finding) -> bool:
+    return finding.at_rest in OVERLAPS and finding.severity == "error"
+
+
+def _common_units(reports: Mapping[str | None, Report]) -> str | None:
+    """Return the unit of all assets, or the smallest one of those with overlaps. Raises
+    SatcheckError if one of these states a unit, and another one does not."""
+    stated = {report.units for report in reports.values() if report.bodies}
+    if len(stated) == 1:
+        return stated.pop()
+    failing = [asset for asset, report in reports.items() if any(map(_fails, report.findings))]
+    known = {asset: unit for asset in failing if (unit := unit_of(reports[asset].units))}
+    for asset in failing:
+        if known and asset not in known:
+            other, unit = next(iter(known.items()))
+            message = f"{asset} states no unit of length, and {other} is in {unit}: add --units"
+            raise SatcheckError(UNITS_UNKNOWN, message)
+    return min(known.values(), key=MICROMETRES.__getitem__, default=None)
+
+
 def _suggestion(
     a: str,
     b: str,
@@ -158,26 +184,30 @@ def _suggestion(
     tally: SampledPair | None,
     robots: Robots,
     poses: int,
+    scale: float,
 ) -> Suggestion | Unchecked | None:
     """None: the pair needs no rule, or nothing speaks for one. finding: None: apart as placed.
-    tally: None: there are no poses."""
+    tally: None: there are no poses. scale: from units of the finding to those of the suggestion."""
     links, adjacent = robots.links_of(a, b), (a, b) in robots.adjacent
     placed = finding.at_rest if finding else "separated"
-    thickness, depth = (finding.thickness_bounds, finding.depth_bounds) if finding else (None, None)
     if finding and placed == "indeterminate":
         return Unchecked(a, b, adjacent, links, finding.reason or placed)
+    thickness, depth = (
+        bounds and (scale * bounds[0], scale * bounds[1])
+        for bounds in ((finding.thickness_bounds, finding.depth_bounds) if finding else (None,) * 2)
+    )
     why: Why
     if adjacent:
         why = "adjacent"
     elif tally and tally.contacts == poses and {a, b} <= robots.bodies:
         why = "always"
-    elif finding and placed in OVERLAPS:
-        if finding.severity != "error":
-            return None
+    elif finding and _fails(finding):
         if thickness is None and depth is None:
             return Unchecked(a, b, adjacent, links, NO_FIGURE)
         why = "contact"
-    elif tally and tally.settled and placed != "touching" and not (finding and _may_hit(finding)):
+    elif (
+        tally and tally.settled and placed not in ("touching", *OVERLAPS) and not _may_hit(finding)
+    ):
         why = "never"
     else:
         return None
@@ -204,7 +234,9 @@ def limit(bounds: Interval | None) -> float | None:
     return min(float(f"{ceil(most / step) * step:.4g}"), LARGEST_LENGTH)
 
 
-def _may_hit(finding: Finding) -> bool:
+def _may_hit(finding: Finding | None) -> bool:
+    if finding is None:
+        return False
     meets = finding.motion and finding.motion.relation in ("penetrating", "touching")
     return bool(meets) or finding.undecided is not None
 

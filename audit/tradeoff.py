@@ -10,7 +10,7 @@ import time
 from collections.abc import Iterable, Sequence
 from statistics import median
 from time import monotonic, perf_counter
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -20,7 +20,6 @@ import satcheck.decompose.computation  # noqa: F401
 from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
-from satcheck.audit.pair import Pair
 from satcheck.audit.settings import Method, Settings
 from satcheck.audit.stages.volume import measure_volume
 from satcheck.audit.studied_pair import Bodies, pair_of
@@ -58,12 +57,29 @@ PARTS = tuple(Rung("parts", threshold) for threshold in (0.5, 0.2, 0.1, 0.05, 0.
 RUNGS = (Rung("aabb"), Rung("obb"), Rung("hull"), *PARTS, EXACT, BOOLEAN)
 
 
-class Measured(Struct):
-    """The answer of a rung at each run, the seconds that they took, and why it has none."""
+class Runs(Struct):
+    """The answers of a rung, the seconds that they took, and why there are no more."""
 
-    runs: list[Row] = []
+    rows: list[Row] = []
     spent: float = 0.0
     failure: str | None = None
+
+    def add(self, rung: Rung, bodies: Bodies, left: float, settings: Settings) -> None:
+        """Run the rung once more, unless it has failed, or no seconds are left."""
+        if self.failure is not None or left <= 0:
+            return
+        start, failure = monotonic(), None
+        try:
+            # Not counted: what ran before, such as a child process, makes the next one slower.
+            run(RUNGS[0], bodies, left, settings)
+            self.rows.append(run(rung, bodies, left, settings))
+        except SatcheckError as error:
+            failure = str(error)
+        except Exception as error:  # noqa: BLE001 a rung that fails is a row that says so
+            failure = f"internal error: {type(error).__name__}: {error}"
+        took = monotonic() - start
+        self.spent += took
+        self.failure = failure if took < left else None  # else its time was over
 
 
 def tradeoff(
@@ -84,27 +100,24 @@ def tradeoff(
     SatcheckError where a body cannot be placed.
     """
     start = monotonic()
-    pair = pair_of(bodies, Settings())
+    largest = pair_of(bodies, Settings()).largest_coordinate
     settings = Settings(depth=True, method=method)
     # A clearance beyond any gap: the exact rung measures it.
-    beyond = replace(settings, clearance=2.0 ** (math.frexp(pair.largest_coordinate)[1] + 2))
-    plain = Measured()
-    if budget > monotonic() - start:
-        _ask(EXACT, plain, bodies, budget, settings)
-    measured = {rung: Measured() for rung in rungs}
+    beyond = replace(settings, clearance=2.0 ** (math.frexp(largest)[1] + 2))
+    plain = Runs()
+    plain.add(EXACT, bodies, budget - (monotonic() - start), settings)
+    runs = {rung: Runs() for rung in rungs}
     # Rungs take turns: what slows the machine down for a while slows all of them. The exact one is
     # the first, and convex parts, the dearest, are the last: a budget cuts these.
     parts = [rung for rung in rungs if rung.name == "parts"]
     others = [EXACT, *(rung for rung in rungs if rung != EXACT and rung not in parts)]
     turns = repeat * others + repeat * parts
     for done, rung in enumerate(turns, 1):
-        mine = measured[rung]
-        left = min(budget - (monotonic() - start), rung_seconds - mine.spent)
-        if mine.failure is None and left > 0:
-            _ask(rung, mine, bodies, left, beyond if rung == EXACT else settings)
+        left = min(budget - (monotonic() - start), rung_seconds - runs[rung].spent)
+        runs[rung].add(rung, bodies, left, beyond if rung == EXACT else settings)
         if progress is not None:
             progress(done, len(turns))
-    truth, pad = _truth(measured[EXACT]), rounding_pad(pair.largest_coordinate)
+    truth = _truth(runs[EXACT])
     return TradeoffReport(
         tool=tool(),
         units=bodies[0].units,
@@ -114,26 +127,9 @@ def tradeoff(
         a=bodies[0].id,
         b=bodies[1].id,
         truth=truth,
-        default=next((row.settled_by for row in plain.runs if row.proven), None),
-        rungs=tuple(_row(rung, mine, truth, pad) for rung, mine in measured.items()),
+        default=next((row.settled_by for row in plain.rows if row.proven), None),
+        rungs=tuple(_row(rung, own, truth, rounding_pad(largest)) for rung, own in runs.items()),
     )
-
-
-def _ask(rung: Rung, mine: Measured, bodies: Bodies, left: float, settings: Settings) -> None:
-    start = monotonic()
-    try:
-        # Not counted: what ran before, such as a child process, makes the next question slower.
-        run(RUNGS[0], bodies, left, settings)
-        mine.runs.append(run(rung, bodies, left, settings))
-        failure = None
-    except SatcheckError as error:
-        failure = str(error)
-    except Exception as error:  # noqa: BLE001 a rung that fails is a row that says so
-        failure = f"internal error: {type(error).__name__}: {error}"
-    took = monotonic() - start
-    mine.spent += took
-    if took < left:  # else its time was over
-        mine.failure = failure
 
 
 def run(rung: Rung, bodies: Bodies, seconds: float, settings: Settings) -> Row:
@@ -168,6 +164,10 @@ def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Row, list[D
     draft = Draft(pair)
     finding = examine(draft)
     cold, cpu = perf_counter() - start, _cpu_seconds() - cpu
+    made = [body.shared.decomposition.known for body in (pair.a, pair.b)]
+    for error in made:
+        if isinstance(error, SatcheckError):
+            raise error
     # A clearance is asked only to have the gap measured.
     relation = "separated" if finding.relation == "near" else finding.relation
     known = is_of_bodies(finding) and relation != "indeterminate"
@@ -183,18 +183,10 @@ def _ladder(rung: Rung, bodies: Bodies, settings: Settings) -> tuple[Row, list[D
         signed_distance=value,
         bounds=bounds,
         settled_by=last_rung(finding),
-        cold=_once(cold),
-        cpu=_once(cpu),
+        cold=_times([1e6 * cold]),
+        cpu=_times([1e6 * cpu]),
     )
-    return row, _parts_of(pair)
-
-
-def _parts_of(pair: Pair) -> list[Decomposition]:
-    made = [body.shared.decomposition.known for body in (pair.a, pair.b)]
-    for one in made:
-        if isinstance(one, SatcheckError):
-            raise one
-    return [one for one in made if isinstance(one, Decomposition)]
+    return row, [one for one in made if isinstance(one, Decomposition)]
 
 
 def last_rung(finding: Finding) -> RungName | None:
@@ -240,21 +232,8 @@ def _boolean(bodies: Bodies, settings: Settings) -> Row:
     """Measure the common volume by manifold3d, in a child process of its own, twice."""
     seconds, megabytes = settings.volume_seconds, settings.volume_megabytes
     with VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
-        row, again = (_volume(bodies, settings, meter) for _ in range(2))
-    return replace(row, cached=again.cold)
-
-
-def _volume(bodies: Bodies, settings: Settings, meter: VolumeMeter) -> Row:
-    """Return the answer. Raises SatcheckError if there is no volume."""
-    start = perf_counter()
-    pair = pair_of(bodies, settings, meter)
-    if pair.curved:
-        raise SatcheckError("curved-shape", "a curved shape has no triangles")
-    draft = Draft(pair, exact="penetrating")
-    measure_volume(draft)
-    seconds, volume, error = perf_counter() - start, draft.volume, draft.volume_error
-    if volume is None or error is None:
-        raise SatcheckError("no-volume", draft.reason or "no volume")
+        volume, error, cold = _volume(bodies, settings, meter)
+        *_, cached = _volume(bodies, settings, meter)
     known = volume == 0 or volume > error
     return Row(
         rung="boolean",
@@ -263,14 +242,28 @@ def _volume(bodies: Bodies, settings: Settings, meter: VolumeMeter) -> Row:
         volume=volume,
         volume_error=error,
         reason=None if known else "the volume lies within its own error",
-        cold=_once(seconds),
+        cold=_times([cold]),
+        cached=_times([cached]),
     )
 
 
-def _truth(exact: Measured) -> Truth:
-    if not exact.runs:
+def _volume(bodies: Bodies, settings: Settings, meter: VolumeMeter) -> tuple[float, float, float]:
+    """Return the volume, its error and the microseconds. Raises SatcheckError if there is none."""
+    start = perf_counter()
+    pair = pair_of(bodies, settings, meter)
+    if pair.curved:
+        raise SatcheckError("curved-shape", "a curved shape has no triangles")
+    draft = Draft(pair, exact="penetrating")
+    measure_volume(draft)
+    if draft.volume is None or draft.volume_error is None:
+        raise SatcheckError("no-volume", draft.reason or "no volume")
+    return draft.volume, draft.volume_error, 1e6 * (perf_counter() - start)
+
+
+def _truth(exact: Runs) -> Truth:
+    if not exact.rows:
         return Truth(None, None, f"the exact rung was not run: {exact.failure or SPENT}")
-    row = exact.runs[0]
+    row = exact.rows[0]
     if not row.proven:
         return Truth(None, None, row.reason or "the exact rung has not proven it")
     low, high = row.bounds or (None, None)
@@ -279,30 +272,30 @@ def _truth(exact: Measured) -> Truth:
     return Truth(row.relation, (low, high), None)
 
 
-def _row(rung: Rung, mine: Measured, truth: Truth, pad: float) -> Row:
-    if mine.failure is not None:
-        return Row(rung=rung.name, threshold=rung.threshold, state="failed", reason=mine.failure)
-    if not mine.runs:
-        return Row(rung=rung.name, threshold=rung.threshold, state="not run", reason=SPENT)
-    row = mine.runs[0]
+def _row(rung: Rung, runs: Runs, truth: Truth, pad: float) -> Row:
+    if runs.failure is not None or not runs.rows:
+        state: Literal["failed", "not run"] = "not run" if runs.failure is None else "failed"
+        reason = runs.failure or SPENT
+        return Row(rung=rung.name, threshold=rung.threshold, state=state, reason=reason)
+    row = runs.rows[0]
     return replace(
         row,
         right=is_right(row, truth),
         error=error_of(row.signed_distance, truth, pad),
-        cold=_all_of(one.cold for one in mine.runs),
-        cached=_all_of(one.cached for one in mine.runs),
-        cpu=_all_of(one.cpu for one in mine.runs),
+        cold=_of_all(one.cold for one in runs.rows),
+        cached=_of_all(one.cached for one in runs.rows),
+        cpu=_of_all(one.cpu for one in runs.rows),
     )
 
 
-def _once(seconds: float) -> Times:
-    micro = 1e6 * seconds
-    return Times(micro, micro, micro, 1)
+def _times(microseconds: Sequence[float]) -> Times:
+    low, high = min(microseconds), max(microseconds)
+    return Times(median(microseconds), low, high, len(microseconds))
 
 
-def _all_of(runs: Iterable[Times | None]) -> Times | None:
+def _of_all(runs: Iterable[Times | None]) -> Times | None:
     known = [one.median for one in runs if one is not None]
-    return Times(median(known), min(known), max(known), len(known)) if known else None
+    return _times(known) if known else None
 
 
 def is_right(row: Row, truth: Truth) -> bool | None:

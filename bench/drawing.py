@@ -9,7 +9,7 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullLocator
 
-from satcheck.cli.formats.plot_style import file_of
+from satcheck.cli.plotting import file_of
 
 # Draws one figure, on dark paper or on light.
 Draw = Callable[[bool], Figure]

@@ -23,7 +23,7 @@ from matplotlib.figure import Figure
 
 from bench.drawing import name_decades, plain, write_both
 from bench.scenes import Run, ask_satcheck
-from satcheck.cli.formats.plot_style import style
+from satcheck.cli.plotting import style
 
 SIZES = (100, 300, 1000, 3000, 10_000, 30_000, 100_000)
 

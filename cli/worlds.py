@@ -91,7 +91,7 @@ def check_worlds(
     document = Document()
     jobs = options["jobs"] or os.cpu_count() or 1
     hashed = not forms.isdisjoint(("json", "html"))
-    assets = _check(worlds, terms, limits, jobs, hashed=hashed)
+    assets = check_each(worlds, terms, limits, jobs, hashed=hashed)
     interrupted = _interrupted(len(worlds) - len(assets), len(worlds))
     shared = frozenset(map(str, inputs.rules))
     found = list(assets.values())
@@ -140,8 +140,13 @@ def check_options(
     )
 
 
-def _check(
-    worlds: Sequence[World], options: CheckOptions, limits: Limits, jobs: int, *, hashed: bool
+def check_each(
+    worlds: Sequence[World],
+    options: CheckOptions,
+    limits: Limits,
+    jobs: int,
+    *,
+    hashed: bool = False,
 ) -> dict[World, Asset]:
     """Return the assets in the order of the worlds; after Ctrl-C only those that are done. Raises
     KeyboardInterrupt if none is."""

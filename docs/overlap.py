@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from bench.drawing import write_both
 from satcheck.audit import check
-from satcheck.cli.formats.plot_style import POINTS_PER_INCH, style
+from satcheck.cli.plotting import POINTS_PER_INCH, style
 from satcheck.core import Mesh
 from satcheck.scene import load_scene
 

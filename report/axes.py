@@ -37,9 +37,9 @@ class CandidateAxis(Value, frozen=True):
     kind: what the axis comes from: a face normal, or the cross product of two edges; in a plane an
     edge normal. index_a, index_b: the number of that face or edge; null: none of this body.
     candidates: how many faces and pairs of edges have this axis, because they are parallel within
-    the precision of the files; 0: only edges within a face that is flat within that precision.
-    direction: unit, from A to B. shadow_a, shadow_b: of the bodies, as
-    world coordinates along it. gap: between the shadows, negative where they overlap, by how much.
+    the precision of the files; 0: only edges that are parallel or within a face, up to that.
+    direction: unit, from A to B. shadow_a, shadow_b: of the bodies, as world coordinates along it.
+    gap: between the shadows, negative where they overlap, by how much.
     gap_bounds: proven bounds of it. state: the sign of the gap, proven by exact arithmetic where
     float64 does not decide; unknown where curves became polygons and the sign hangs on that.
     """

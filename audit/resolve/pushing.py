@@ -11,18 +11,22 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 import numpy as np
+from msgspec.structs import replace
 
+from satcheck.audit.bodies import BodyCache
 from satcheck.audit.body import largest_coordinate
+from satcheck.audit.resolve.conflicts import BodyPair, Checked, check_at_rest, longer, translated
 from satcheck.audit.resolve.free_place import AXES, extents, free_place
-from satcheck.audit.resolve.layout import BodyPair, Layout
-from satcheck.audit.resolve.pair_state import longer
+from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import added, dot, scaled
 from satcheck.core.conventions import Vector
 from satcheck.core.rounding import rounding_pad
+from satcheck.scene import Scene
 
+ORIGIN: Vector = (0.0, 0.0, 0.0)
 # A round pushes all overlaps if there are more than these; else at most one for each body, its
 # deepest: shallow overlaps often end with the deep ones.
 MANY = 64
@@ -36,52 +40,71 @@ Progress = Callable[[int, int], None]
 
 
 class Pushing:
-    """left: pairs that were given up, with the reason. rounds: so far."""
+    """offsets: of the bodies, by id. left: pairs that were given up, with the reason. rounds: so
+    far. failing: pairs that fail where the bodies are."""
 
-    def __init__(self, layout: Layout, longest: float) -> None:
-        self._layout = layout
+    def __init__(
+        self, scene: Scene, settings: Settings, staying: Collection[str], longest: float
+    ) -> None:
+        """scene: sorted, at rest and strict. settings: they ask for the depth."""
+        self._scene = scene
+        self._settings = settings
         self._longest = longest
-        self._extents = np.stack([extents(body) for body in layout.home])
+        self._home = {body.id: body for body in scene.bodies}
+        self._bodies = dict(self._home)
+        self._cache = BodyCache()
         self._pushes: Counter[BodyPair] = Counter()
         # 0: the body stays. k: it made way for a body of rank k - 1. inf: it is free to share.
-        self._ranks = [math.inf if i in layout.movable else 0.0 for i in range(len(layout.home))]
+        self._ranks = {id_: 0.0 if id_ in staying else math.inf for id_ in self._home}
+        self._movable = frozenset(self._home) - frozenset(staying)
+        self.offsets = dict.fromkeys(self._home, ORIGIN)
         self.left: dict[BodyPair, str] = {}
+        self.failing: Collection[BodyPair] = ()
         self.rounds = 0
 
     def run(self, most: int, progress: Progress | None = None) -> None:
         """Push until only pairs in `left` overlap, at most `most` rounds. Then move bodies that
         still overlap to free places."""
+        seen = self._check()
+        extent = {id_: extents(body) for id_, body in self._cache.placed.items()}
         started = 0
-        while overlaps := self._overlaps():
+        while overlaps := self._overlaps(seen):
             started = max(started, len(overlaps))
             if progress is not None:
                 progress(started - len(overlaps), started)
+            stuck = [next(iter(overlaps))]
             if self.rounds < most:
-                self._push_all(overlaps)
+                stuck = self._push_all(overlaps)
                 self.rounds += 1
-            else:
-                self._take_out(next(iter(overlaps)))
+            taken: set[str] = set()
+            for pair in stuck:
+                if taken.isdisjoint(pair):
+                    taken.update(pair)
+                    self._take_out(pair, extent, seen)
+            seen = self._check()
 
-    def _overlaps(self) -> dict[BodyPair, Vector]:
-        """The pushes of unresolved pairs with a movable body, the longest first."""
-        layout = self._layout
-        close = [
-            pair
-            for pair in layout.close_pairs()
-            if pair not in self.left and not layout.movable.isdisjoint(pair)
-        ]
-        states = layout.states(close).items()
+    def _check(self) -> Checked:
+        scene = replace(self._scene, bodies=tuple(self._bodies.values()))
+        seen = check_at_rest(scene, self._settings, self._cache)
+        self.failing = seen.conflicts
+        return seen
+
+    def _overlaps(self, seen: Checked) -> dict[BodyPair, Vector]:
+        """Return the pushes of pairs with a movable body, the longest first."""
         pushes = {
-            pair: state.push or (0.0, 0.0, 0.0) for pair, state in states if state.is_unresolved
+            pair: conflict.push or ORIGIN
+            for pair, conflict in seen.conflicts.items()
+            if pair not in self.left and not self._movable.isdisjoint(pair)
         }
         return dict(sorted(pushes.items(), key=lambda entry: -math.hypot(*entry[1])))
 
-    def _push_all(self, overlaps: dict[BodyPair, Vector]) -> None:
+    def _push_all(self, overlaps: dict[BodyPair, Vector]) -> list[BodyPair]:
+        """Return the pairs that no push helps."""
         goals = {
-            pair: added(self._layout.offset(pair), self._farther(pair, push))
+            pair: added(self._apart(pair), self._farther(pair, push))
             for pair, push in overlaps.items()
         }
-        taken: set[int] = set()
+        taken: set[str] = set()
         stuck = []
         for pair, push in overlaps.items():
             if len(overlaps) <= MANY and not taken.isdisjoint(pair):
@@ -91,60 +114,74 @@ class Pushing:
             hopeless = not any(push) or self._pushes[pair] > PATIENCE
             if hopeless or not self._push(pair, goals[pair], push):
                 stuck.append(pair)
-        taken.clear()
-        for pair in stuck:
-            if taken.isdisjoint(pair):
-                taken.update(pair)
-                self._take_out(pair)
+        return stuck
+
+    def _apart(self, pair: BodyPair) -> Vector:
+        """Return by how much more A was moved than B."""
+        return added(self.offsets[pair[0]], scaled(self.offsets[pair[1]], -1.0))
 
     def _farther(self, pair: BodyPair, push: Vector) -> Vector:
         if not self._pushes[pair] or not any(push):
             return push
-        pad = rounding_pad(largest_coordinate(*(self._layout.placed[i].bounds for i in pair)))
+        pad = rounding_pad(largest_coordinate(*(self._cache.placed[id_].bounds for id_ in pair)))
         return longer(push, pad * REPAIR_GROWTH ** self._pushes[pair])
 
     def _push(self, pair: BodyPair, goal: Vector, push: Vector) -> bool:
         """Push the pair as far as other pushes of the round have not. Return False where neither
         body may go so far."""
-        layout, ranks, (a, b) = self._layout, self._ranks, pair
-        rest = added(goal, scaled(layout.offset(pair), -1.0))
+        ranks, (a, b) = self._ranks, pair
+        rest = added(goal, scaled(self._apart(pair), -1.0))
         along = dot(push, rest)
         if along <= 0.0:
             return True
         rest = scaled(push, along / dot(push, push))
         if ranks[a] == ranks[b] and self._pushes[pair] > HOLD:
-            held, other = sorted(pair, key=lambda i: math.hypot(*layout.offsets[i]))
+            held, other = sorted(pair, key=lambda id_: math.hypot(*self.offsets[id_]))
             ranks[held] = min(ranks[held], 1.0)
             ranks[other] = ranks[held] + 1.0
         usual = 0.5 if ranks[a] == ranks[b] else float(ranks[a] > ranks[b])
         for share in (usual, 1.0, 0.0):
-            shares = {i: part for i, part in ((a, share), (b, share - 1.0)) if part}
-            ways = {i: added(layout.offsets[i], scaled(rest, part)) for i, part in shares.items()}
-            if all(ranks[i] and math.hypot(*way) <= self._longest for i, way in ways.items()):
-                for i, j in ((a, b), (b, a)):
-                    if j not in ways:
-                        ranks[i] = min(ranks[i], ranks[j] + 1.0)
-                layout.move(ways)
+            shares = {id_: part for id_, part in ((a, share), (b, share - 1.0)) if part}
+            ways = {id_: added(self.offsets[id_], scaled(rest, p)) for id_, p in shares.items()}
+            if all(ranks[id_] and math.hypot(*way) <= self._longest for id_, way in ways.items()):
+                for one, other in ((a, b), (b, a)):
+                    if other not in ways:
+                        ranks[one] = min(ranks[one], ranks[other] + 1.0)
+                for id_, way in ways.items():
+                    self._move(id_, way)
                 return True
         return False
 
-    def _take_out(self, pair: BodyPair) -> None:
+    def _move(self, id_: str, offset: Vector) -> None:
+        """Put the body at this translation from home."""
+        self.offsets[id_] = offset
+        self._bodies[id_] = translated(self._home[id_], offset)
+
+    def _take_out(self, pair: BodyPair, extent: dict[str, np.ndarray], seen: Checked) -> None:
         """Move the body with the shorter way to a free place, where it stays. If none has a free
-        place, give up the pair."""
-        ways = [(way, i) for i in pair if (way := self._free_place(i)) is not None]
+        place, give up the pair. extent: of the bodies at home."""
+        ways = []
+        for id_ in self._movable.intersection(pair):
+            way = self._free_place(id_, extent, seen)
+            if way is not None:
+                ways.append((math.hypot(*way), id_, way))
         if not ways:
             self.left[pair] = "no free place was found within the longest motion allowed"
             return
-        way, i = min(ways, key=lambda candidate: math.hypot(*candidate[0]))
-        self._layout.move({i: way})
-        self._ranks[i] = 0.0
+        _, id_, way = min(ways)
+        self._move(id_, way)
+        self._ranks[id_] = 0.0
 
-    def _free_place(self, i: int) -> Vector | None:
-        layout = self._layout
-        if i not in layout.movable:
-            return None
-        others = [j for j in range(len(layout.home)) if j != i and layout.is_checked((i, j))]
-        shifts = np.array([layout.offsets[j] for j in others]) @ AXES.T
-        gaps = np.array([layout.clearance((i, j)) for j in others])
-        there = self._extents[others] + shifts[:, None]
-        return free_place(self._extents[i], there, gaps, self._longest)
+    def _free_place(self, id_: str, extent: dict[str, np.ndarray], seen: Checked) -> Vector | None:
+        assert self._cache.book is not None
+        place = {other: number for number, other in enumerate(self._scene.order)}
+        others = [
+            other
+            for other in extent
+            if other != id_ and self._cache.book.is_checked(place[id_], place[other])
+        ]
+        requests = [seen.planner.request(*sorted((place[id_], place[k]))) for k in others]
+        shifts = np.array([self.offsets[other] for other in others]) @ AXES.T
+        gaps = np.array([request.clearance or 0.0 for request in requests])
+        there = np.stack([extent[other] for other in others]) + shifts[:, None]
+        return free_place(extent[id_], there, gaps, self._longest)

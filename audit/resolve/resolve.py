@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from msgspec.structs import replace
 
-from satcheck.audit.check import check, volume_meter
-from satcheck.audit.resolve.layout import ORIGIN, BodyPair, Layout, translated
-from satcheck.audit.resolve.pair_state import is_objected
-from satcheck.audit.resolve.pushing import Progress, Pushing
+from satcheck.audit.bodies import BodyCache
+from satcheck.audit.check import check
+from satcheck.audit.resolve.conflicts import (
+    BodyPair,
+    at_rest,
+    check_at_rest,
+    is_objected,
+    moved_scene,
+    strict,
+)
+from satcheck.audit.resolve.pushing import ORIGIN, Progress, Pushing
 from satcheck.audit.settings import Settings
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
@@ -28,6 +34,8 @@ from satcheck.report.resolution import (
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 
+# Seconds of a slow machine that all ways out of a round may take together, and the least for one.
+ROUND_BUDGET, LEAST_BUDGET = 4.0, 0.006
 BOTH_STAY = "both bodies stay"
 LINKS_STAY = "links of a robot stay where its joints put them"
 NO_WAY = "no way out was found"
@@ -84,16 +92,19 @@ def resolve(
     robots = (robot for robot in scene.robots if not robot.loose)
     links = frozenset(part.id for robot in robots for part in robot.bodies)
     staying = links | _staying(scene, pins)
-    with ExitStack() as stack:
-        limits_volume = any(rule.max_volume is not None for rule in scene.rules)
-        meter = stack.enter_context(volume_meter(proof)) if limits_volume else None
-        layout = Layout(scene, replace(proof, depth=True, thickness=False), staying, meter)
-        before = layout.states(layout.close_pairs())
-        pushing = Pushing(layout, max_motion or math.inf)
+    rest = at_rest(scene)
+    before = check_at_rest(rest, replace(proof, list_pruned=False), BodyCache())
+    failing: Collection[BodyPair] = before.conflicts
+    budget = min(proof.budget, max(LEAST_BUDGET, ROUND_BUDGET / max(len(failing), 1)))
+    measuring = replace(
+        proof, depth=True, thickness=False, tolerance=0.0, budget=budget, list_pruned=False
+    )
+    free = strict(rest, before.findings, proof.fail_on)
+    pushing = Pushing(free, measuring, staying, max_motion or math.inf)
+    if failing:
         pushing.run(iterations, progress)
-        why = reasons(layout, staying, links, pushing.left)
-    offsets = zip(layout.home, layout.offsets, strict=True)
-    moved = {body.id: offset for body, offset in offsets if offset != ORIGIN}
+        failing = pushing.failing
+    moved = {id_: offset for id_, offset in pushing.offsets.items() if offset != ORIGIN}
     report = checked(moved, proof) if checked else check(moved_scene(scene, moved), proof)
     moves = tuple(
         Move(body.id, moved[body.id], math.hypot(*moved[body.id]))
@@ -101,7 +112,7 @@ def resolve(
         if body.id in moved
     )
     pinned = tuple(body.id for body in scene.bodies if body.id in staying)
-    kinds: Counter[str] = Counter(state.kind for state in before.values())
+    kinds: Counter[str] = Counter(conflict.kind for conflict in before.conflicts.values())
     counts = sorted(report.summary.by_relation.items())
     relations = {relation: count for relation, count in counts if count}
     document = ResolutionReport(
@@ -111,7 +122,9 @@ def resolve(
         summary=_summary(report, kinds, moves, len(pinned), pushing.rounds),
         moves=moves,
         pinned=pinned,
-        left=tuple(left_pairs(report, why)),
+        left=tuple(
+            _left(finding, failing, pushing.left, staying, links) for finding in objected(report)
+        ),
         check=MovedCheck(report.summary.verdict, report.summary.pairs, relations),
         issues=report.issues,
     )
@@ -142,7 +155,7 @@ def _summary(
 
 
 def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
-    """The bodies that are static, pinned by the scene, or chosen by these selectors."""
+    """Return the bodies that are static, pinned by the scene, or chosen by these selectors."""
     pinned = {body.id for body in scene.bodies if body.static or body.pinned}
     for selector in map(Selector, pins):
         chosen = selector.select(scene.in_order())
@@ -152,49 +165,24 @@ def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
     return frozenset(pinned)
 
 
-def moved_scene(scene: Scene, translations: Mapping[str, Vector]) -> Scene:
-    """The scene with these bodies, by id, moved in the world."""
-    return replace(
-        scene,
-        bodies=tuple(
-            translated(body, translations[body.id]) if body.id in translations else body
-            for body in scene.bodies
-        ),
-    )
-
-
 def objected(report: Report) -> tuple[Finding, ...]:
-    """The findings that this check fails on, or whose limits it cannot decide."""
+    """Return the findings that this check fails on, or whose limits it cannot decide."""
     fail_on = report.settings.fail_on
     return tuple(finding for finding in report.findings if is_objected(finding, fail_on))
 
 
-def reasons(
-    layout: Layout,
+def _left(
+    finding: Finding,
+    failing: Collection[BodyPair],
+    given_up: Mapping[BodyPair, str],
     staying: frozenset[str],
     links: frozenset[str],
-    given_up: dict[BodyPair, str],
-) -> dict[frozenset[str], str]:
-    """Why pairs are left, for all close pairs, even if no check fails on them at rest."""
-    why = {}
-    for pair, state in layout.states(layout.close_pairs()).items():
-        ids = frozenset(layout.home[i].id for i in pair)
-        if state.kind == "free":
-            why[ids] = ONLY_MOVING
-        elif ids <= links:
-            why[ids] = LINKS_STAY
-        elif ids <= staying:
-            why[ids] = BOTH_STAY
-        else:
-            why[ids] = given_up.get(pair, NO_WAY)
-    return why
-
-
-def left_pairs(report: Report, why_left: dict[frozenset[str], str]) -> Iterator[Left]:
-    for finding in objected(report):
-        motion = finding.motion
-        far = NO_WAY if motion is None else ONLY_MOVING
-        why, relation = why_left.get(frozenset((finding.a, finding.b)), far), finding.at_rest
-        if why == ONLY_MOVING and motion is not None:
-            relation = motion.relation
-        yield Left(finding.a, finding.b, relation, why)
+) -> Left:
+    """failing: pairs that fail at rest."""
+    a, b = sorted((finding.a, finding.b))
+    if finding.motion is not None and (a, b) not in failing:
+        return Left(finding.a, finding.b, finding.motion.relation, ONLY_MOVING)
+    why = given_up.get((a, b), NO_WAY)
+    if {a, b} <= staying:
+        why = LINKS_STAY if {a, b} <= links else BOTH_STAY
+    return Left(finding.a, finding.b, finding.at_rest, why)

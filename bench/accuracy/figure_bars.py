@@ -13,7 +13,7 @@ from bench.accuracy.rungs import RungSummary
 from bench.accuracy.stages import GROUPS, OTHER, StageTimes
 from bench.accuracy.verdicts import OUTCOMES
 from satcheck.audit.words import duration
-from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
+from satcheck.cli.plotting import POINTS_PER_INCH, Palette, style
 
 WIDTH = 780.0  # points
 _HEAD = 84.0

@@ -18,7 +18,7 @@ from bench.accuracy.palette import Colours, kind_of, series
 from bench.accuracy.rungs import PARTS, Cost
 from bench.drawing import name_decades, percent, plain
 from satcheck.audit.words import number
-from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
+from satcheck.cli.plotting import POINTS_PER_INCH, Palette, style
 
 # Points, 72 to the inch.
 WIDTH = 780.0

@@ -16,7 +16,7 @@ from bench.accuracy.spread import Spread, spread
 from bench.accuracy.verdicts import outcome
 from bench.drawing import name_decades, percent
 from satcheck.audit.words import duration
-from satcheck.cli.formats.plot_style import POINTS_PER_INCH, Palette, style
+from satcheck.cli.plotting import POINTS_PER_INCH, Palette, style
 
 Record = dict[str, Any]
 # Points, 72 to the inch.

@@ -5,35 +5,37 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Mapping, Sequence
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 from msgspec.structs import replace
 
-from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import Limits
-from satcheck.audit.batch.slot_server import Wanted
 from satcheck.audit.settings import Settings
 from satcheck.audit.suggest import MEASURED, Suggestions, suggest, suggestions_of
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.format_option import form_of, format_option
+from satcheck.cli.formats.registry import Format
 from satcheck.cli.formats.suggest import remark, srdf, toml
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.option import settings_of
 from satcheck.cli.output import Document, issue_line, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
-from satcheck.cli.worlds import asset_names, check_options
-from satcheck.report.assets import Result
+from satcheck.cli.worlds import asset_names, check_each, check_options
 from satcheck.report.json import document as json_document
-from satcheck.report.json import read_line
 from satcheck.scene import Scene
 from satcheck.scene.opening import is_folder
 from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed
 
-FORMATS = ("toml", "json", "srdf")
+FORMATS = {
+    "toml": Format("toml", (".toml",), about="rules for a scene"),
+    "json": Format("json", (".json",), about="data"),
+    "srdf": Format("srdf", (".srdf",), about="disable_collisions for a robot"),
+}
 
 
 @click.command("suggest", cls=Command, context_settings=HELP_NAMES)
@@ -43,14 +45,9 @@ FORMATS = ("toml", "json", "srdf")
     is_flag=True,
     help="Also suggest pairs that met in none of the poses. It is not proven that they never do.",
 )
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(FORMATS),
-    help="toml: rules for a scene; json: data; srdf: disable_collisions for a robot. "
-    "[default: as the name after -o ends; else toml]",
-)
+@format_option((), "as the name after -o ends; else toml", FORMATS)
 @option.output
+@option.exclude
 @option.planar
 @scene_option.split
 @scene_option.merge
@@ -78,20 +75,20 @@ def command(
     error; 3, something could not be decided.
     """
     inputs = Inputs.taken_from(options)
-    if form is None:
-        form = "" if output is None else output.suffix.lower().removeprefix(".")
-        form = form or FORMATS[0]
-        if form not in FORMATS:
-            known = "this command writes .toml, .json or .srdf: end the name so, or give --format"
-            raise click.UsageError(f"{output}: {known}")
+    named = form_of(form, output, (), FORMATS)
+    form = named if named in FORMATS else "toml"
     refuse_early(inputs, output)
     document = Document()
     told: set[str] = set()
-    if any(map(is_folder, inputs.paths)):
+    of_folders = any(map(is_folder, inputs.paths))
+    if of_folders:
         if form == "srdf" or inputs.has_poses:
             raise click.UsageError("a robot in a folder stands as its file says: give it alone")
         result, robot = _of_assets(inputs, options), ""
     else:
+        source = click.get_current_context().get_parameter_source("exclude")
+        if source is ParameterSource.COMMANDLINE:  # a config file is about other commands, too
+            raise click.UsageError("--exclude leaves out files of a folder, and none is given")
         scene = load(inputs)
         if form == "srdf" and len(scene.robots) != 1:
             raise click.UsageError("SRDF is about one robot: give one URDF")
@@ -112,7 +109,7 @@ def command(
             talk(f"satcheck: {issue_line(issue)}")
     talk(remark(result, pairs, never=never))
     if form == "toml" and pairs and output is not None:
-        command = ["batch"] if any(map(is_folder, inputs.paths)) else []
+        command = ["batch"] if of_folders else []
         line = shlex.join(["satcheck", *command, *inputs.paths, "--rules", str(output)])
         talk(f"Next: {line} checks with these rules.")
     if form == "srdf" and pairs:
@@ -142,12 +139,7 @@ def _of_assets(inputs: Inputs, options: Mapping[str, Any]) -> Suggestions:
     inputs = replace(inputs, folders=tuple(assets.folders))
     terms = check_options(inputs, {**options, **MEASURED}, None, None)
     worlds = [(file,) for file in assets.files]
-    reports = {}
-    with Bar("assets") as bar:
-        for answer in chain.from_iterable(
-            check_locally(worlds, terms, Limits(), os.cpu_count() or 1, Wanted(kept=False))
-        ):
-            reports[answer.world[0]] = read_line(answer.line, Result).report
-            if bar is not None:
-                bar(len(reports), len(worlds))
-    return suggestions_of({file: reports[file] for file in assets.files})
+    checked = check_each(worlds, terms, Limits(), os.cpu_count() or 1)
+    if len(checked) < len(worlds):  # a rule may be missing, or another pair have its names
+        raise KeyboardInterrupt
+    return suggestions_of({world[0]: asset.report for world, asset in checked.items()})

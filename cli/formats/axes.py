@@ -32,12 +32,20 @@ _STYLES: dict[AxisState, str] = {
 
 def render(result: AxesReport, page: Page) -> str:
     """Return the whole text, final newline included."""
-    above = [title(result), *_notes(result), *_counts(result)]
+    axes = result.axes
+    columns = (
+        Column("test", tuple(str(axis.number) for axis in axes), right=True),
+        Column("axis", tuple(map(origin, axes)), folds=True),
+        Column("direction", tuple(vector(axis.direction) for axis in axes), folds=True),
+        Column("shadow of A", tuple(_shadow(axis.shadow_a) for axis in axes), folds=True),
+        Column("shadow of B", tuple(_shadow(axis.shadow_b) for axis in axes), folds=True),
+        Column("between them", tuple(map(gap_words, axes)), folds=True, graded=True),
+    )
     below = [early_out(result), _winner(result)]
     if result.left_out:
         below.insert(0, f"{counted(result.left_out, 'more axis', 'more axes')}: see --top.")
-    lines = fitted_each(above, page)
-    lines += _table(result, page)
+    lines = fitted_each([title(result), *_notes(result), *_counts(result)], page)
+    lines += table(columns, page, [_STYLES[axis.state] for axis in axes])
     return joined([*lines, *fitted_each(below, page)], page)
 
 
@@ -69,13 +77,13 @@ def title(result: AxesReport) -> str:
 
 def _notes(result: AxesReport) -> Iterator[str]:
     others = [body.id for body in (result.a, result.b) if not body.convex]
+    kind = "convex outline" if result.planar else "convex solid"
     if others:
-        are = "is no" if len(others) == 1 else "are no"
-        kind = "convex outline" if result.planar else "convex solid"
+        are = f"is no {kind}" if len(others) == 1 else f"are no {kind}s"
         yield (
-            f"note: {' and '.join(others)} {are} {kind}{'s' if len(others) > 1 else ''}: the axes "
-            "are those of the convex hulls. A gap separates the bodies, too. An overlap is one of "
-            "the hulls only; satcheck A B checks the bodies."
+            f"note: {' and '.join(others)} {are}: the axes are those of the convex hulls. A gap "
+            "separates the bodies, too. An overlap is one of the hulls only; satcheck A B checks "
+            "the bodies."
         )
     if result.in_band:
         what = "gap" if result.relation == "separated" else "depth"
@@ -106,19 +114,6 @@ def _counts(result: AxesReport) -> Iterator[str]:
     )
 
 
-def _table(result: AxesReport, page: Page) -> list[str]:
-    axes = result.axes
-    columns = (
-        Column("test", tuple(str(axis.number) for axis in axes), right=True),
-        Column("axis", tuple(map(origin, axes)), folds=True),
-        Column("direction", tuple(vector(axis.direction) for axis in axes), folds=True),
-        Column("shadow of A", tuple(_shadow(axis.shadow_a) for axis in axes), folds=True),
-        Column("shadow of B", tuple(_shadow(axis.shadow_b) for axis in axes), folds=True),
-        Column("between them", tuple(map(gap_words, axes)), folds=True, graded=True),
-    )
-    return table(columns, page, [_STYLES[axis.state] for axis in axes])
-
-
 def _shadow(shadow: Shadow) -> str:
     return " .. ".join(map(number, shadow))
 
@@ -141,18 +136,14 @@ def _winner(result: AxesReport) -> str:
     if winner is None:
         return "INCOMPLETE: the axes do not show how the bodies relate."
     length = with_unit(number(winner.length), unit)
-    if winner.kind == "separating":
-        said = f"Separating axis: {winner.axis:,}, the largest gap, {length}."
-        if result.distance is not None and result.distance > winner.length * (1 + 1e-9):
-            distance = with_unit(number(result.distance), unit)
-            said += f" The distance is {distance}: between corners no candidate axis is nearest."
-        return said
     if winner.kind == "touching":
-        return (
-            f"Touching: no axis has a gap, and on axis {winner.axis:,} the shadows touch exactly."
-        )
-    assert winner.mtv is not None
-    return (
-        f"Minimum translation: along axis {winner.axis:,}, the smallest overlap, {length}: "
-        f"move A by {vector(winner.mtv)}."
-    )
+        where = f"on axis {winner.axis:,} the shadows touch exactly"
+        return f"Touching: no axis has a gap, and {where}."
+    if winner.mtv is not None:
+        where = f"along axis {winner.axis:,}, the smallest overlap, {length}"
+        return f"Minimum translation: {where}: move A by {vector(winner.mtv)}."
+    said = f"Separating axis: {winner.axis:,}, the largest gap, {length}."
+    if result.distance is not None and result.distance > winner.length * (1 + 1e-9):
+        distance = with_unit(number(result.distance), unit)
+        said += f" The distance is {distance}: between corners no candidate axis is nearest."
+    return said

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from satcheck.audit.bodies import UNUSED_RULE
 from satcheck.audit.words import (
     bounds,
     counted,
@@ -175,8 +176,12 @@ def _issues(report: Report, shown: Sequence[Finding]) -> Iterator[Remark]:
     told: Counter[str] = Counter()
     more: Counter[str] = Counter()
     idle: Counter[str] = Counter()
+    unused = 0
     for issue in report.issues:
         if issue.severity == "error" or issue.code in (*OF_ANSWERS, NOTHING_TO_CHECK):
+            continue
+        if issue.code == UNUSED_RULE and issue.severity == "note":
+            unused += 1
             continue
         is_mesh = issue.code in MESHES
         in_rows = issue.body in ids if issue.body else issue.file in files
@@ -192,6 +197,8 @@ def _issues(report: Report, shown: Sequence[Finding]) -> Iterator[Remark]:
         yield Remark(f"{_counts(more)} more: JSON has all")
     if idle:
         yield Remark(f"{_counts(idle)}; none mattered")
+    if unused:
+        yield Remark(f"{counted(unused, 'suggested rule')} about no pair of bodies here")
 
 
 def _counts(codes: Counter[str]) -> str:

@@ -15,22 +15,10 @@ if TYPE_CHECKING:
 
     from satcheck.cli.output import Page
     from satcheck.report.report import Report
-    from satcheck.report.resolution import Left, Move, ResolutionReport, ResolutionSummary
+    from satcheck.report.resolution import Move, ResolutionReport, ResolutionSummary
 
 # More rows than this, and the longest moves are shown.
 ROWS = 60
-
-
-_RELATIONS = {
-    "separated": "{a} and {b} are separated",
-    "near": "{a} and {b} are closer than their clearance",
-    "touching": "{a} and {b} touch",
-    "penetrating": "{a} and {b} penetrate",
-    "contains": "{a} contains {b}",
-    "inside": "{a} lies inside {b}",
-    "coincident": "{a} and {b} coincide",
-    "indeterminate": "{a} and {b} are indeterminate",
-}
 
 
 def render(resolution: ResolutionReport, report: Report, page: Page) -> str:
@@ -39,7 +27,11 @@ def render(resolution: ResolutionReport, report: Report, page: Page) -> str:
     said = []
     if rest := len(resolution.moves) - len(shown):
         said.append(f"{counted(rest, 'more body', 'more bodies')} moved by less")
-    said += map(_left_line, resolution.left)
+    messages = {(finding.a, finding.b): finding.message for finding in report.findings}
+    said += (
+        f"not resolved: {messages[left.a, left.b].removesuffix('.')}: {left.reason}"
+        for left in resolution.left
+    )
     said.append(_motion_line(resolution, report))
     if resolution.summary.flush:
         pairs = counted(resolution.summary.flush, "pair")
@@ -65,10 +57,6 @@ def _moves(moves: Sequence[Move], page: Page) -> list[str]:
         Column("length", tuple(number(move.length) for move in moves), right=True),
     )
     return table(columns, page)
-
-
-def _left_line(left: Left) -> str:
-    return f"not resolved: {_RELATIONS[left.relation].format(a=left.a, b=left.b)}: {left.reason}"
 
 
 def _conflicts(summary: ResolutionSummary) -> str:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
-from itertools import islice, product
+from itertools import islice
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
 from msgspec import Struct
 
+from satcheck.audit.bodies import SUGGESTED
 from satcheck.audit.suggest import MARGIN, NO_FIGURE
 from satcheck.audit.words import counted, with_unit
 from satcheck.report.json import escaped
@@ -27,8 +29,6 @@ _NAMED = 5
 # Words of the MoveIt setup assistant, which takes any other for "User". Strongest first. An SRDF
 # has no limits.
 _SRDF_REASONS: dict[Why, str] = {"adjacent": "Adjacent", "always": "Default", "never": "Never"}
-# A pair of names in an asset.
-Key = tuple[str | None, frozenset[str]]
 _LAST_NUMBER = re.compile(r"\d+(?=\D*$)")
 
 
@@ -70,58 +70,60 @@ def _alike(limit: float | None, largest: float | None) -> bool:
     return limit is largest if limit is None or largest is None else largest <= limit * MARGIN
 
 
-def rules_of(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> Iterator[Rule]:
-    """Yield a rule for two names, or one for all whose last numbers differ, if they are a group."""
-    left = {(pair.asset, frozenset((pair.a, pair.b))): pair for pair in pairs}
-    assets: dict[str, dict[str | None, None]] = {}
+def rules_of(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> list[Rule]:
+    """Return a rule for two names, or one for all whose last numbers differ, if they are a group.
+    They stand in the order of their first pairs."""
+    left = {pair: place for place, pair in enumerate(pairs)}
+    covered = _counter(suggestions)
+    rules: dict[int, Rule] = {}
+    numbered, exact = _numbered, _exact
+    for of_a, of_b in ((numbered, numbered), (numbered, exact), (exact, numbered), (exact, exact)):
+        groups: dict[frozenset[str], list[Suggestion]] = {}
+        for pair in left:
+            groups.setdefault(frozenset((of_a(pair.a), of_b(pair.b))), []).append(pair)
+        for members in groups.values():
+            a, b = of_a(members[0].a), of_b(members[0].b)
+            rule = Rule(a, b, members, covered(a, b) - len(members))
+            if rule.is_group or (of_a, of_b) == (exact, exact):
+                rules[left[members[0]]] = rule
+                for pair in members:
+                    del left[pair]
+    return [rules[place] for place in sorted(rules)]
+
+
+def _counter(suggestions: Suggestions) -> Callable[[str, str], int]:
+    """Return a function that counts the pairs that two selectors cover, in all assets."""
+    assets: dict[str, list[str | None]] = {}
     for asset, ids in suggestions.ids.items():
         for id_ in ids:
-            assets.setdefault(id_, {})[asset] = None
-    refused = set()
-    choose = cache(lambda selector: Selector(selector).choose(assets))
-    for first in list(left.values()):
-        if (first.asset, frozenset((first.a, first.b))) not in left:
-            continue
-        *groups, exact = product(_selectors(first.a), _selectors(first.b))
-        for a, b in (*(group for group in groups if group not in refused), exact):
-            found: dict[Key, Suggestion] = {}
-            others = 0
-            for key in _covered(choose(a), choose(b), assets):
-                if key in left:
-                    found[key] = left[key]
-                    continue
-                others += 1
-                if (a, b) != exact:
-                    break
-            rule = Rule(a, b, list(found.values()), others)
-            if rule.is_group:
-                break
-            refused.add((a, b))
-        yield rule
-        for key in found:
-            del left[key]
+            assets.setdefault(id_, []).append(asset)
+    choose = cache(lambda selector: frozenset(Selector(selector).choose(assets)))
+
+    def count(a: str, b: str) -> int:
+        in_a, in_b, in_both = (
+            Counter(asset for id_ in ids for asset in assets[id_])
+            for ids in (choose(a), choose(b), choose(a) & choose(b))
+        )
+        return sum(
+            number * in_b[asset] - in_both[asset] * (in_both[asset] + 1) // 2
+            for asset, number in in_a.items()
+        )
+
+    return count
 
 
-def _covered(
-    some: Collection[str], others: Collection[str], assets: Mapping[str, Collection[str | None]]
-) -> Iterator[Key]:
-    """Yield the pairs of these bodies. assets: that have a body of this name."""
-    for x, y in product(some, others):
-        for asset in assets[x]:
-            if x != y and asset in assets[y]:
-                yield asset, frozenset((x, y))
+def _exact(name: str) -> str:
+    return Selector.writable(name).text
 
 
-def _selectors(name: str) -> tuple[str, ...]:
-    """`bolt.*` and `bolt.001`."""
-    exact = Selector.writable(name).text
-    if not _LAST_NUMBER.search(name):
-        return (exact,)
-    return Selector.writable(_LAST_NUMBER.sub("\0", name)).text.replace("\0", "*"), exact
+def _numbered(name: str) -> str:
+    """`bolt.*` for `bolt.001`."""
+    return _exact(_LAST_NUMBER.sub("\0", name)).replace("\0", "*")
 
 
 def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
-    """A scene file of `[[rules]]` alone; the reason of each says that it is to be confirmed."""
+    """Return a scene file of `[[rules]]` alone; the reason of each says that it is to be
+    confirmed."""
     report = suggestions.report
     unit = unit_of(report.units)
     head = '# Give this file beside the scene, or after --rules.\nschema = "satcheck.scene/1"\n'
@@ -143,7 +145,7 @@ def _lines(rule: Rule, report: SuggestionsReport) -> Iterator[str]:
         yield f"max_depth = {rule.max_depth!r}"
     if rule.pairs[0].why != "contact":
         yield "allowed = true"
-    yield f"reason = {quoted(f'suggested: {evidence(rule, report)}; confirm')}"
+    yield f"reason = {quoted(f'{SUGGESTED}{evidence(rule, report)}; confirm')}"
 
 
 def evidence(rule: Rule, report: SuggestionsReport) -> str:
@@ -169,10 +171,9 @@ def evidence(rule: Rule, report: SuggestionsReport) -> str:
 
 
 def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> str:
-    """A line for each two links with a suggested pair of bodies, by the strongest of their reasons,
-    with the evidence as a comment; no "Never" where some of their bodies may meet. robot: its name.
-
-    None where some of their bodies could not be checked: a comment says so in its place."""
+    """Return a line for each two links with a suggested pair of bodies, by the strongest of their
+    reasons, with the evidence as a comment; no "Never" where some of their bodies may meet. Where
+    some of their bodies could not be checked, a comment says so instead. robot: its name."""
     report = suggestions.report
     unchecked = {frozenset(pair.links): pair for pair in report.unchecked if pair.links is not None}
     lines = {links: _comment(_left_out(pair)) for links, pair in unchecked.items() if pair.adjacent}
@@ -181,22 +182,22 @@ def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> s
     for pair in sorted(of_links, key=lambda pair: (order.index(pair.why), -(pair.contacts or 0))):
         a, b = pair.links or ("", "")
         links = frozenset((a, b))
-        if pair.why == "never" and links in suggestions.may_meet:
+        if links in lines or (pair.why == "never" and links in suggestions.may_meet):
+            continue
+        if links in unchecked:
+            lines[links] = _comment(_left_out(unchecked[links]))
             continue
         line = f"<disable_collisions link1={quoteattr(a)} link2={quoteattr(b)} "
         line += f'reason="{_SRDF_REASONS[pair.why]}"/> '
-        line += _comment(evidence(Rule(pair.a, pair.b, [pair]), report))
-        lines.setdefault(
-            links, _comment(_left_out(unchecked[links])) if links in unchecked else line
-        )
+        lines[links] = line + _comment(evidence(Rule(pair.a, pair.b, [pair]), report))
     inner = "".join(f"  {line}\n" for line in lines.values())
     return f"<robot name={quoteattr(robot)}>\n{inner}</robot>\n"
 
 
-def remark(suggestions: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> str:
-    """A few lines for standard error."""
+def remark(suggestions: Suggestions, pairs: Sequence[Suggestion], *, never: bool) -> str:
+    """Return a few lines for standard error."""
     report = suggestions.report
-    said = counted(len(list(pairs)), "pair") + " suggested: confirm each before you allow it."
+    said = counted(len(pairs), "pair") + " suggested: confirm each before you allow it."
     left = sum(pair.why == "never" for pair in report.suggestions)
     if left and not never:
         poses = _poses(report)
@@ -213,7 +214,7 @@ def remark(suggestions: Suggestions, pairs: Iterable[Suggestion], *, never: bool
 
 
 def _left_out(pair: Unchecked) -> str:
-    """A comment of one line, whatever the names hold."""
+    """Return a comment of one line, whatever the names hold."""
     joined = "a joint connects them, but " if pair.adjacent else ""
     why = f"{joined}they could not be checked: {pair.reason}"
     text = f"not suggested: {pair.a} and {pair.b}: {why}"
@@ -232,5 +233,5 @@ def _poses(report: SuggestionsReport) -> str:
 
 
 def quoted(text: str) -> str:
-    """A basic string of TOML: that of JSON, but for DEL."""
+    """Return a basic string of TOML: that of JSON, but for DEL."""
     return escaped(json.dumps(text, ensure_ascii=False))

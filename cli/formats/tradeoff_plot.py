@@ -12,18 +12,16 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from satcheck.audit.words import duration, number
-from satcheck.cli.formats.plot_style import LETTERS, POINTS_PER_INCH, Palette, fitted, style
 from satcheck.cli.formats.tradeoff import silent, title
 from satcheck.cli.output import harmless
+from satcheck.cli.plotting import LETTERS, POINTS_PER_INCH, WIDTH, Palette, fitted, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from satcheck.report.tradeoff import Row, TradeoffReport
 
-# Points, 72 to the inch.
-WIDTH = 780.0
-_HEAD, _PANEL, _LINE = 40.0, 260.0, 15.0
+_HEAD, _PANEL, _LINE = 40.0, 260.0, 15.0  # points
 
 
 def draw(results: Sequence[TradeoffReport], *, dark: bool = False) -> Figure:

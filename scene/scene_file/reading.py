@@ -8,6 +8,7 @@ is an error, because it may be important.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -81,6 +82,8 @@ def _schema_of(text: SceneText) -> object:
 def _not_a_scene(path: str, schema: object) -> Refused:
     told = "" if schema is None else f", but {shown(schema)}"
     message = f'not a scene file: "schema" is not "{SCENE_1}"{told}'
+    if isinstance(schema, str) and re.match(r"satcheck\.(?!scene)", schema):
+        message += ": it is a result of satcheck, so give the files that it is about"
     return Refused("bad-scene", message, file=path)
 
 

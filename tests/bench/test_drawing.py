@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 from matplotlib.figure import Figure
 
 from bench.drawing import both, embedded, percent, plain, write_both
-from satcheck.cli.formats.plot_style import DARK, LIGHT, style
+from satcheck.cli.plotting import DARK, LIGHT, style
 
 
 def draw(dark: bool) -> Figure:

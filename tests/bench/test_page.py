@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from bench.accuracy.page import Page, Run, page
-from satcheck.cli.formats.plot_style import DARK, LIGHT
+from satcheck.cli.plotting import DARK, LIGHT
 from tests.bench.made import HEADER, LABELS, Record, record, row, silent, times
 
 

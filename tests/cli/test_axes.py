@@ -12,8 +12,8 @@ from matplotlib.colors import to_hex
 from matplotlib.image import imread
 
 from satcheck.cli.commands.schema import text
-from satcheck.cli.formats.axes_plot import MOST_LINES, WIDTH
-from satcheck.cli.formats.plot_style import LIGHT
+from satcheck.cli.formats.axes_plot import MOST_LINES
+from satcheck.cli.plotting import LIGHT, WIDTH
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
 
 SCHEMA = Draft202012Validator(json.loads(text("axes")))

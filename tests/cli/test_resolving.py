@@ -130,7 +130,7 @@ def test_what_cannot_be_resolved_is_said(tmp_path: Path) -> None:
     scene = scene_of_boxes(tmp_path, 0, 0.5)
     ran = satcheck("resolve", scene, "--pin", "*")
     assert ran.code == 1
-    assert "not resolved: box0 and box1 penetrate: both bodies stay" in ran.out
+    assert "not resolved: box0 and box1 overlap: both bodies stay" in ran.out
 
 
 def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
@@ -225,7 +225,10 @@ motion = [{bodies = "door", translation = [5, 0, 0]}]
 """)
     ran = satcheck("resolve", str(scene))
     assert ran.code == 1
-    assert "not resolved: door and post penetrate: only while they move, and motions are" in ran.out
+    assert (
+        "not resolved: door hits post at 2 of travel, near (2.5, 0, 0): only while they move, and"
+        in ran.out
+    )
     assert "Nothing overlaps as the bodies are placed: nothing was moved." in ran.out
 
 
@@ -264,7 +267,7 @@ def test_the_links_of_a_robot_are_said_to_stay(tmp_path: Path) -> None:
 """)
     ran = satcheck("resolve", str(robot), "--pose", '{"j": 0.5}')
     assert ran.code == 1
-    assert "base and slide penetrate: links of a robot stay where" in " ".join(ran.out.split())
+    assert "base and slide overlap: links of a robot stay where" in " ".join(ran.out.split())
     assert satcheck("resolve", str(robot), "--pose", '{"j": 1.5}').code == 0
     refused = satcheck("resolve", str(robot), "--pose", '[{"j": 0}, {"j": 1}]')
     assert "takes one pose" in refused.err

@@ -224,16 +224,76 @@ def test_names_that_another_asset_has_are_counted(tmp_path: Path) -> None:
     assert all("in kit/table.glb, 1 other pair of these names" in r["reason"] for r in rules)
 
 
-def test_assets_in_several_units_have_plain_limits(tmp_path: Path) -> None:
-    """Each is in the units of its asset, as the rules state none."""
-    (tmp_path / "kit").mkdir()
-    table(tmp_path / "kit", 0.002)
-    shutil.copy(SAMPLES / "rack.3mf", tmp_path / "kit")
+def kit_of_two(folder: Path) -> None:
+    """A table in metres, and a rack in millimetres."""
+    (folder / "kit").mkdir()
+    table(folder / "kit", 0.002)
+    shutil.copy(SAMPLES / "rack.3mf", folder / "kit")
+
+
+def test_limits_for_assets_in_several_units_are_in_the_smallest(tmp_path: Path) -> None:
+    """A number without a unit would mean another length in each asset."""
+    kit_of_two(tmp_path)
     assert satcheck("suggest", "kit", "-o", "rules.toml", cwd=tmp_path).code == 0
     document = tomllib.loads((tmp_path / "rules.toml").read_text())
-    assert "units" not in document
-    assert [rule["a"] for rule in document["rules"]] == ["rack/tray", "top"]
-    assert satcheck("batch", "kit", "--rules", "rules.toml", cwd=tmp_path).code == 0
+    assert document["units"] == "mm"
+    limits = [(rule["a"], rule["max_depth"]) for rule in document["rules"]]
+    assert limits == [("rack/tray", 0.55), ("top", 2.2)]
+    assert "depth 2 mm as placed" in document["rules"][1]["reason"]
+    checked = ("batch", "kit", "--rules", "rules.toml")
+    assert satcheck(*checked, cwd=tmp_path).code == 0
+    table(tmp_path / "kit", 0.0025)
+    assert satcheck(*checked, cwd=tmp_path).code == 1
+
+
+def test_limits_for_assets_with_and_without_a_unit_need_one(tmp_path: Path) -> None:
+    (tmp_path / "kit").mkdir()
+    shutil.copy(SAMPLES / "rack.3mf", tmp_path / "kit")
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path / "kit")
+    plain = 'schema = "satcheck.scene/1"\nbodies = [\n'
+    for k in range(2):
+        plain += f'{{id = "b{k}", shape = {{type = "box", size = [1, 1, 1]}}, '
+        plain += f"position = [{STEP * k}, 0, 0]}},\n"
+    (tmp_path / "kit" / "plain.toml").write_text(f"{plain}]\n")
+    ran = satcheck("suggest", "kit", cwd=tmp_path)
+    assert ran.code == 2
+    assert "kit/plain.toml states no unit of length" in ran.err
+    assert "add --units" in ran.err
+
+
+def test_rules_of_a_folder_for_one_of_its_assets_warn_of_nothing(tmp_path: Path) -> None:
+    """The rules for the others select no pair in it. They permit, so nothing is missed."""
+    kit_of_two(tmp_path)
+    assert satcheck("suggest", "kit", "-o", "rules.toml", cwd=tmp_path).code == 0
+    for given in (("kit/rack.3mf", "rules.toml"), ("kit/rack.3mf", "--rules", "rules.toml")):
+        ran = satcheck(*given, cwd=tmp_path)
+        assert ran.code == 0, ran.err
+        assert "warning" not in ran.out
+        assert "1 suggested rule about no pair of bodies here" in ran.out
+    ran = satcheck("kit/rack.3mf", "rules.toml", *JSON, cwd=tmp_path)
+    severities = [i["severity"] for i in ran.document["issues"] if i["code"] == "unused-rule"]
+    assert severities == ["note"]
+
+
+def test_files_of_a_folder_can_be_left_out(tmp_path: Path) -> None:
+    kit_of_two(tmp_path)
+    ran = satcheck("suggest", "kit", "--exclude", "*.3mf", cwd=tmp_path)
+    assert ran.code == 0, ran.err
+    assert [rule["a"] for rule in tomllib.loads(ran.out)["rules"]] == ["top"]
+    ran = satcheck("suggest", "kit/table.glb", "--exclude", "*.3mf", cwd=tmp_path)
+    assert ran.code == 2
+    assert "--exclude leaves out files of a folder" in ran.err
+    (tmp_path / "satcheck.toml").write_text('exclude = ["*.3mf"]\n')
+    assert satcheck("suggest", "kit/table.glb", cwd=tmp_path).code == 0
+
+
+@pytest.mark.parametrize("command", [(), ("suggest",)])
+def test_a_stored_report_is_no_input(command: tuple[str, ...], tmp_path: Path) -> None:
+    name = table(tmp_path, 0.002)
+    assert satcheck(name, "-o", "report.json", cwd=tmp_path).code == 1
+    ran = satcheck(*command, "report.json", cwd=tmp_path)
+    assert ran.code == 2
+    assert "it is a result of satcheck, so give the files that it is about" in ran.err
 
 
 @pytest.mark.parametrize("more", [("--format", "srdf"), ("--sample", "3")])

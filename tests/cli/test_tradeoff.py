@@ -15,8 +15,7 @@ from matplotlib.image import imread
 from satcheck.cli import plotting
 from satcheck.cli.commands import tradeoff
 from satcheck.cli.commands.schema import text
-from satcheck.cli.formats.plot_style import LIGHT
-from satcheck.cli.formats.tradeoff_plot import WIDTH
+from satcheck.cli.plotting import LIGHT, WIDTH
 from tests.cli.process import PUSHED, satcheck
 
 SCHEMA = json.loads(text("tradeoff"))

@@ -10,8 +10,8 @@ from matplotlib.text import Text
 from msgspec.structs import replace
 
 from satcheck.audit.tradeoff import RUNGS
-from satcheck.cli.formats.plot_style import DARK, FORMS, LIGHT, file_of
 from satcheck.cli.formats.tradeoff_plot import draw
+from satcheck.cli.plotting import DARK, FORMS, LIGHT, file_of
 from satcheck.report.tradeoff import Row, Times, TradeoffReport, Truth
 from satcheck.report.values import Tool
 

@@ -9,8 +9,7 @@ import pytest
 
 from satcheck import core
 from satcheck.audit.axes import axes_shown, relation_shown
-from satcheck.core.axes.candidates import candidates, edge_pairs, features_of
-from satcheck.core.axes.shadows import Points
+from satcheck.core.axes import candidates, hull_of
 from tests.hard_cases.case import ConvexPair, Family, Vertices
 from tests.hard_cases.families import FAMILIES, large
 
@@ -20,7 +19,7 @@ MOST_VERTICES = 200
 SMALL = [family for family in FAMILIES if family is not large]
 
 
-def hull_of(points: Vertices) -> core.Polytope:
+def polytope_of(points: Vertices) -> core.Polytope:
     no_triangles = np.zeros((1, 3), dtype=np.uint32)
     return core.Mesh(np.array(points), no_triangles).convex_hull()
 
@@ -29,19 +28,18 @@ def has_axes(pair: ConvexPair) -> bool:
     """Two polygons in one plane have others, and less than a polygon has none."""
     if max(len(pair.a), len(pair.b)) > MOST_VERTICES:
         return False
-    dimensions = hull_of(pair.a).dimension, hull_of(pair.b).dimension
-    together = hull_of((*pair.a, *pair.b)).dimension
+    dimensions = polytope_of(pair.a).dimension, polytope_of(pair.b).dimension
+    together = polytope_of((*pair.a, *pair.b)).dimension
     return (min(dimensions) == 2 and together == 3) or dimensions == (3, 3)
 
 
 def shown_by_axes(pair: ConvexPair) -> str:
-    hulls = hull_of(pair.a), hull_of(pair.b)
-    points = Points(np.concatenate([np.asarray(hull.vertices) for hull in hulls]))
-    step = float(np.abs(points.world).max()) * 2.0**-53
-    a = features_of(hulls[0], 0, points, step)
-    b = features_of(hulls[1], hulls[0].vertex_count, points, step)
-    found = candidates(a, b, edge_pairs(a, b), noise=False)
-    return relation_shown(axes_shown(found, points, a.points, b.points))
+    first, second = polytope_of(pair.a), polytope_of(pair.b)
+    world = np.concatenate((first.vertices, second.vertices))
+    step = float(np.abs(world).max()) * 2.0**-53
+    a, b = hull_of(first, 0, world, step), hull_of(second, first.vertex_count, world, step)
+    made = candidates(a, b)
+    return relation_shown(axes_shown(made.where(made.plain), world, a.points, b.points))
 
 
 @pytest.mark.parametrize("family", SMALL, ids=lambda family: family.CATEGORY)

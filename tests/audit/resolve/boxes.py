@@ -9,6 +9,7 @@ from typing import Any
 
 from satcheck.audit import Settings
 from satcheck.audit.resolve import resolve as resolving
+from satcheck.audit.resolve.conflicts import moved_scene
 from satcheck.report.resolution import ResolutionReport
 from satcheck.scene import Scene, load_scene
 from tests.audit.shapes import box, write
@@ -49,7 +50,7 @@ def moves(found: ResolutionReport) -> dict[str, Corner]:
 
 
 def after(scene: Scene, found: ResolutionReport) -> Scene:
-    return resolving.moved_scene(scene, moves(found))
+    return moved_scene(scene, moves(found))
 
 
 def overlapping(scene: Scene) -> set[tuple[str, str]]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import sys
 
 import pytest
 
 from satcheck.audit import Settings
+from satcheck.audit.finding import examine
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from tests.audit.resolve.boxes import after, boxes_scene, moves, overlapping, resolve, unit_at
@@ -289,16 +291,14 @@ def test_rounds_are_counted(tmp_path) -> None:
 
 
 def test_a_pair_that_fails_does_not_take_the_others_with_it(tmp_path, monkeypatch) -> None:
-    from satcheck.audit.resolve import layout
+    """The check of the moved scene asks for no depth."""
 
-    examine = layout.examine
-
-    def broken(draft):
-        if "c" in (draft.pair.a.id, draft.pair.b.id):
+    def broken(draft, climb=None):
+        if "c" in (draft.pair.a.id, draft.pair.b.id) and draft.pair.request.wants("depth"):
             raise RuntimeError("a fault")
-        return examine(draft)
+        return examine(draft, climb)
 
-    monkeypatch.setattr(layout, "examine", broken)
+    monkeypatch.setattr(sys.modules["satcheck.audit.checked_pairs"], "examine", broken)
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(-0.5)})
     resolution = resolve(scene)
     assert {move.body for move in resolution.moves} == {"a", "b"}

@@ -84,3 +84,12 @@ def test_a_hit_on_the_way_is_none_of_its_business(tmp_path) -> None:
     resolution = resolve(replace(scene, motions=(motion,)))
     assert (resolution.summary.conflicts, resolution.moves) == (0, ())
     assert [(one.relation, one.reason) for one in resolution.left] == [("penetrating", ONLY_MOVING)]
+
+
+def test_an_overlap_that_the_touch_band_excuses_stays_when_a_body_is_pushed(tmp_path) -> None:
+    """c pushes b along y, and b stays a hundredth deep in a."""
+    boxes = {"a": unit_at(0), "b": unit_at(0.99), "c": unit_at(0.99, 0.5)}
+    resolution = resolve(boxes_scene(tmp_path, boxes, static=("a",)), Settings(tolerance=0.05))
+    assert resolution.summary.verdict == "resolved"
+    assert set(moves(resolution)) == {"b", "c"}
+    assert moves(resolution)["b"][0] == 0.0

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.core.axes.candidates import Features, candidates, edge_pairs, features_of
-from satcheck.core.axes.shadows import Floats, Points, shadows
+from satcheck.core.axes import Floats, Hull, candidates, hull_of, shadows
 from tests.oracles.brute_sat import signed_distance
 from tests.oracles.random_shapes import (
     box_corners,
@@ -21,22 +20,23 @@ STEP = 1e-16
 SAME = 1e-12
 
 
-def hull_of(points: Floats) -> core.Polytope:
+def polytope_of(points: Floats) -> core.Polytope:
     no_triangles = np.zeros((1, 3), dtype=np.uint32)
     return core.Mesh(np.ascontiguousarray(points), no_triangles).convex_hull()
 
 
-def both(a: Floats, b: Floats, step: float = STEP) -> tuple[Features, Features, Points]:
-    hulls = hull_of(a), hull_of(b)
-    points = Points(np.concatenate([np.asarray(hull.vertices) for hull in hulls]))
-    first = features_of(hulls[0], 0, points, step)
-    return first, features_of(hulls[1], hulls[0].vertex_count, points, step), points
+def both(a: Floats, b: Floats, step: float = STEP) -> tuple[Hull, Hull, Floats]:
+    polytopes = polytope_of(a), polytope_of(b)
+    world = np.concatenate([each.vertices for each in polytopes])
+    first = hull_of(polytopes[0], 0, world, step)
+    return first, hull_of(polytopes[1], polytopes[0].vertex_count, world, step), world
 
 
 def largest_gap(a: Floats, b: Floats) -> float:
-    first, second, points = both(a, b)
-    found = candidates(first, second, edge_pairs(first, second), noise=False)
-    return float(shadows(points, found.axes, first.points, second.points).gap.max())
+    first, second, world = both(a, b)
+    made = candidates(first, second)
+    axes = made.axes[made.plain]
+    return float(shadows(world, axes, first.points, second.points).gap.max())
 
 
 PRISM = np.array([[np.cos(t), np.sin(t), z] for z in (0.0, 1.0) for t in np.arange(6) * np.pi / 3])
@@ -54,8 +54,7 @@ PRISM = np.array([[np.cos(t), np.sin(t), z] for z in (0.0, 1.0) for t in np.aran
 )
 def test_faces_and_edges_are_those_of_the_solid(points: Floats, faces: int, sides: int) -> None:
     for turn in (np.eye(3), rotation_matrix(np.array([0.1, 0.2, 0.3, 0.9]))):
-        features, _, shared = both(points @ turn.T, box_corners((1, 1, 1)))
-        world = shared.world
+        features, _, world = both(points @ turn.T, box_corners((1, 1, 1)))
         assert (features.faces, features.sides) == (faces, sides)
         assert len(features.edges) >= sides
         outward = features.left[:sides] + features.right[:sides]
@@ -99,4 +98,5 @@ def test_pairs_of_edges_that_are_left_out_make_no_face_of_the_difference() -> No
         turn_a, turn_b = (rotation_matrix(random_quaternion(rng)) for _ in range(2))
         box = box_corners((1, 2, 3))
         a, b, *_ = both(box @ turn_a.T, box @ turn_b.T)
-        assert len(edge_pairs(a, b).rows) == 18
+        made = candidates(a, b)
+        assert made.plain.sum() == len(a.face) + len(b.face) + 18

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from satcheck.core.axes.candidates import first_parallel
+from satcheck.core.axes import first_parallel
 from tests.oracles.random_shapes import random_direction
 
 TOLERANCE = 1e-9
