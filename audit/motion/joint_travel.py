@@ -10,8 +10,8 @@ The joints above both bodies move neither relative to the other.
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,6 +49,8 @@ JOINT_ROUNDOFFS = 64
 _ROUNDED_UP = 1 + 1e-12
 # How many numbers of a joint are lengths; the others turn it.
 _LENGTHS = {"prismatic": 1, "planar": 2, "floating": 3, "free": 3}
+# Moments that are kept, because both bodies of a pair ask about them, and threads at a time.
+MOMENTS = 64
 # Parts of each piece of the path that get a box of their own.
 PARTS = 8
 
@@ -88,7 +90,7 @@ class Travel:
             np.diff(path.values[joint.name]) / np.diff(path.times) for _, joint in self._joints
         ]
         self._above = self._chains()
-        self._last = threading.local()
+        self.at_one = lru_cache(MOMENTS)(lambda t: self.at(np.array([t])))
         self.reach = self._reach()
         self.pad = self._pad()
         self.boxes = self._boxes()
@@ -101,14 +103,16 @@ class Travel:
         """The bodies that move."""
         return [b.id for b, above in zip(self._scene.bodies, self._above, strict=True) if above]
 
+    def relative(self, a: int, b: int) -> tuple[list[int], list[int]]:
+        """The joints that move two bodies in the frame that the joints above both carry."""
+        of_a, of_b = self._above[a], self._above[b]
+        return [j for j in of_a if j not in of_b], [j for j in of_b if j not in of_a]
+
     def ways(self, a: int, b: int) -> tuple[JointWay, JointWay]:
-        """The motions of two bodies, each in the frame that the joints above both carry."""
-        both = set(self._above[a]) & set(self._above[b])
-        way_a, way_b = (
-            JointWay(self, body, [j for j in self._above[body] if j not in both], bool(both))
-            for body in (a, b)
-        )
-        return way_a, way_b
+        """The motions of two bodies in that frame."""
+        only_a, only_b = self.relative(a, b)
+        framed = len(only_a) < len(self._above[a])
+        return JointWay(self, a, only_a, framed), JointWay(self, b, only_b, framed)
 
     def at(self, times: Numbers) -> Moments:
         values = self.path.at(times)
@@ -132,62 +136,34 @@ class Travel:
         centres += linear[..., 3].transpose(1, 0, 2)
         return Moments(matrices, axes, origins, rates, slides, centres)
 
-    def at_one(self, t: float) -> Moments:
-        """The robots at one moment; the last one is kept, because both bodies of a pair ask."""
-        last: tuple[float, Moments] | None = getattr(self._last, "of", None)
-        if last is None or last[0] != t:
-            last = self._last.of = t, self.at(np.array([t]))
-        return last[1]
-
     def between(self, at: Moments, half: Numbers, a: int, b: int) -> Numbers:
-        """An upper bound of how far any point of B moves in the frame of A, or one of A in that of
-        B, in a time `half` before or after each moment, rounding included."""
-        only_a = [j for j in self._above[a] if j not in self._above[b]]
-        only_b = [j for j in self._above[b] if j not in self._above[a]]
-        of_b = self._carried(at, half, b, [*only_b, *reversed(only_a)])
-        of_a = self._carried(at, half, a, [*only_a, *reversed(only_b)])
-        return np.minimum(of_a, of_b) * _ROUNDED_UP + 2 * self.pad
+        """An upper bound of how far two bodies move towards each other in a time `half` before or
+        after each moment, rounding included."""
+        only_a, only_b = self.relative(a, b)
+        speed_a, _ = self.fastest(at, half, a, only_a)
+        speed_b, _ = self.fastest(at, half, b, only_b)
+        return (speed_a + speed_b) * half * _ROUNDED_UP + 2 * self.pad
 
     def fastest(
-        self, at: Moments, half: float, body: int, joints: Sequence[int]
-    ) -> tuple[float, float]:
-        """Upper bounds of the speed and the acceleration of all points of a body that these joints
-        carry, the nearest first, from a time `half` before the only moment until as long after it.
-
-        A joint adds its turning rate times the distance from its axis to the speed. The joints
-        above it turn this velocity, and it turns its own and those of the joints nearer to the
-        body.
-        """
-        speed = acceleration = 0.0
-        for j, lever, slide in self._levers(at, np.array([half]), body, joints):
-            rate = abs(float(at.rates[j, 0]))
-            own = rate * float(lever[0]) + float(slide[0])
-            acceleration += rate * (own + 2.0 * speed)
-            speed += own
-        return speed * _ROUNDED_UP, acceleration * _ROUNDED_UP
-
-    def _carried(self, at: Moments, half: Numbers, body: int, joints: Sequence[int]) -> Numbers:
-        """joints: those that carry the body, the nearest first."""
-        total = np.zeros(len(half))
-        for j, lever, slide in self._levers(at, half, body, joints):
-            total += slide * half + np.minimum(np.abs(at.rates[j]) * half, 2.0) * lever
-        return total
-
-    def _levers(
         self, at: Moments, half: Numbers, body: int, joints: Sequence[int]
-    ) -> Iterator[tuple[int, Numbers, Numbers]]:
-        """Yield each joint with an upper bound of the distance of the points of the body from its
-        axis, and its speed along a line. Nearer joints move first, so each moves about its axis at
-        the moment."""
-        moved = np.zeros(len(half))
+    ) -> tuple[Numbers, Numbers]:
+        """Upper bounds of the speed and the acceleration of all points of a body that these joints
+        carry, the nearest first, from a time `half` before each moment until as long after it.
+
+        A joint adds its turning rate times the distance from its axis to the speed. Nearer joints
+        add to this distance. The joints above it turn the velocity that it adds, and it turns that
+        and the velocities of the joints nearer to the body.
+        """
+        speed, acceleration = np.zeros(len(half)), np.zeros(len(half))
         for j in joints:
-            from_origin = at.centres[body] - at.origins[j]
+            from_origin, rate = at.centres[body] - at.origins[j], np.abs(at.rates[j])
             along = (from_origin * at.axes[j]).sum(axis=1)[:, None] * at.axes[j]
             slide = np.linalg.norm(at.slides[j], axis=1)
             lever = np.linalg.norm(from_origin - along, axis=1) + self._radii[body]
-            lever += moved + slide * half
-            moved += slide * half + np.minimum(np.abs(at.rates[j]) * half, 2.0) * lever
-            yield j, lever, slide
+            own = rate * (lever + (speed + slide) * half) + slide
+            acceleration += rate * (own + 2.0 * speed)
+            speed += own
+        return speed * _ROUNDED_UP, acceleration * _ROUNDED_UP
 
     def _chains(self) -> list[list[int]]:
         """Of each body the joints that move it, the nearest first."""
@@ -210,8 +186,8 @@ class Travel:
         for k, body in enumerate(self._scene.bodies):
             if not self._above[k]:
                 continue
-            grown = self._radii[k] + self._carried(at, half, k, self._above[k]) * _ROUNDED_UP
-            grown += self.pad
+            speed, _ = self.fastest(at, half, k, self._above[k])
+            grown = self._radii[k] + speed * half * _ROUNDED_UP + self.pad
             low = (at.centres[k] - grown[:, None]).min(axis=0)
             high = (at.centres[k] + grown[:, None]).max(axis=0)
             boxes[body.id] = tuple(low.tolist()), tuple(high.tolist())
@@ -250,7 +226,7 @@ class Travel:
         return JOINT_ROUNDOFFS * UNIT_ROUNDOFF * (depth + 1) * (1 + angle) * self.reach
 
 
-def _steady(joint: Joint, rates: Mapping[int, Numbers] | Numbers) -> tuple[Numbers, Numbers]:
+def _steady(joint: Joint, rates: Numbers) -> tuple[Numbers, Numbers]:
     """How a joint turns, and how it slides in its frame before its own motion, shape (3, moments).
     A planar joint turns about where it has slid."""
     if joint.kind == "prismatic":
@@ -287,9 +263,9 @@ class JointWay:
         if piece not in self._speeds:
             start, end = self.times[piece - 1], self.times[piece]
             at = self._travel.at_one(0.5 * (start + end))
-            half = 0.5 * (end - start) * _ROUNDED_UP
-            speed, _acceleration = self._travel.fastest(at, half, self._body, self._joints)
-            self._speeds[piece] = speed
+            half = np.array([0.5 * (end - start) * _ROUNDED_UP])
+            speed, _ = self._travel.fastest(at, half, self._body, self._joints)
+            self._speeds[piece] = float(speed[0])
         return self._speeds[piece]
 
     def velocity(self, t: float) -> Vector | None:
@@ -329,7 +305,9 @@ class JointWay:
         # Joints that slide carry the axis of the nearest one along a line.
         unsteady = (0.0, 0.0)
         if any(at.rates[j, 0] for j in joints[1:]):
-            unsteady = self._travel.fastest(at, span * _ROUNDED_UP, self._body, joints)
+            half = np.array([span * _ROUNDED_UP])
+            speed, acceleration = self._travel.fastest(at, half, self._body, joints)
+            unsteady = float(speed[0]), float(acceleration[0])
         turned, shift = ((a, b, c), (d, e, f), (g, h, i)), added((x, y, z), offset)
         about = added(_vector(centre), offset)
         return core.Moving(turned, shift, about, _vector(velocity), _vector(spin), *unsteady)

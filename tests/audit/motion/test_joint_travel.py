@@ -64,7 +64,9 @@ def test_no_point_is_faster_than_its_bounds(
     matrices = travel.at(times).matrices.reshape(len(times), 4, 3, 4)
     for frame, joints in ((0, [2, 1, 0]), (1, [2, 1])):
         at = travel.at(np.array([0.5]))
-        speed, acceleration = travel.fastest(at, 0.2, 3, joints)
+        speed, acceleration = (
+            float(own[0]) for own in travel.fastest(at, np.array([0.2]), 3, joints)
+        )
         world = matrices[:, 3] @ corners.T
         turn, shift = matrices[:, frame, :, :3], matrices[:, frame, :, 3:]
         seen = turn.transpose(0, 2, 1) @ (world - shift)
