@@ -6,7 +6,7 @@ The core sorts them without placing a body (`core/native/poses/sift.hpp`).
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -101,20 +101,15 @@ class PosedPairs:
         a, b = (self._bodies[k] for k in pair.places)
         return Pair(a, b, self._settings, pair.request)
 
-    def sift(
-        self,
-        matrices: Numbers,
-        margins: Numbers | None = None,
-        tolerances: Sequence[float] | None = None,
-    ) -> Codes:
+    def sift(self, matrices: Numbers, margins: Numbers | None = None) -> Codes:
         """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: those of `PoseBatch`.
         margins: of the same shape; pairs are APART only if they are farther apart by this much, and
-        those with NaN stay OPEN. tolerances: those of the pairs, on a path of joints."""
+        those with NaN stay OPEN."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
-        for k, pair in enumerate(self.pairs):
+        for pair in self.pairs:
             a, b = pair.places
-            tolerance = pair.request.tolerance if tolerances is None else tolerances[k]
+            tolerance = pair.request.tolerance
             if tolerance is None:
                 deviations = (self._bodies[body].body.file.deviation for body in (a, b))
                 tolerance = max(resolutions[a] + resolutions[b], sum(deviations))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
-import numpy as np
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import PlacedBodies
@@ -13,7 +12,7 @@ from satcheck.audit.body import Box, around_both
 from satcheck.audit.close_pairs import ClosePairs
 from satcheck.audit.motion.impact import Impact
 from satcheck.audit.motion.joint_travel import Travel
-from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, holed, pad_and_band
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, holed
 from satcheck.audit.motion.open_stretches import OpenStretches, open_stretches
 from satcheck.audit.motion.sweep import Posed, swept, swept_along
 from satcheck.audit.pair import Moves, Pair
@@ -57,30 +56,15 @@ class JointMovers:
         close, ids, place = ClosePairs(bodies, planner, self._bounds), bodies.ids, self._place
         moves = self._travel.moves
         self._pairs.choose((i, j) for i, j in close if moves(place[ids[i]], place[ids[j]]))
-        numbers = range(len(self._pairs.pairs))
-        placed = [self._pairs.as_placed(k) for k in numbers]
-        bands = [self._band(k, placed[k]) for k in numbers]
-        asked = np.array([not isinstance(band, str) for band in bands], bool)
-        lengths = [band if isinstance(band, float) else 0.0 for band in bands]
+        placed = [self._pairs.as_placed(k) for k in range(len(self._pairs.pairs))]
         near = [
             (NEAREST if holed(pair) else NEAR) * min(pair.a.diagonal, pair.b.diagonal)
             for pair in placed
         ]
-        found = open_stretches(self._travel, self._pairs, lengths, near, asked)
-        for k in numbers:
-            self._sweeps[self._pairs.pairs[k].ids] = partial(self._sweep, k, bands[k], found[k])
+        found = open_stretches(self._travel, self._pairs, [p.tolerance for p in placed], near)
+        for pair, stretches in zip(self._pairs.pairs, found, strict=True):
+            self._sweeps[pair.ids] = partial(self._sweep, pair.places, stretches)
         return close
-
-    def _band(self, k: int, pair: Pair) -> float | str:
-        """Return half the width of the touch band of a pair on the path, or why there is none."""
-        for floor, other in ((pair.a, pair.b), (pair.b, pair.a)):
-            if floor.endless and not holds(floor.body, self._bounds(other.id, other.bounds)):
-                return f"{other.id} moves beyond the reach of the half space"
-        try:
-            _, band = pad_and_band(pair, *self._travel.ways(*self._pairs.pairs[k].places))
-        except Unanswerable as why:
-            return str(why)
-        return band
 
     def _bounds(self, body: str, placed: Box) -> Box:
         return around_both(placed, self._travel.boxes.get(body, placed))
@@ -100,18 +84,24 @@ class JointMovers:
     def issues(self, _: Sequence[str]) -> list[Issue]:
         return []
 
-    def _sweep(self, k: int, band: float | str, found: OpenStretches, pair: Pair) -> Sweep:
+    def _sweep(self, places: tuple[int, int], found: OpenStretches, pair: Pair) -> Sweep:
         """The sweep of a pair through the stretches of the path in which it may meet."""
-        if isinstance(band, str):
-            return swept(Impact(0.0, None, 0.0, reason=band), pair.tolerance, 0)
-        gap = max(band, pair.request.clearance or 0.0)
+        gap = max(pair.tolerance, pair.request.clearance or 0.0)
         if not found.stretches:
             free = Impact(1.0, None, 1.0, gap=gap)
-            return swept(free, band, found.steps, "separated", distance_at_least=gap)
-        places = self._pairs.pairs[k].places
-        moving = MovingPair(pair, *self._travel.ways(*places), found.stretches, gap)
+            return swept(free, pair.tolerance, found.steps, "separated", distance_at_least=gap)
+        try:
+            self._require_reach(pair)
+            moving = MovingPair(pair, *self._travel.ways(*places), found.stretches, gap)
+        except Unanswerable as why:
+            return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, found.steps)
         moving.steps = found.steps
         return swept_along(moving, partial(self._posed, places))
+
+    def _require_reach(self, pair: Pair) -> None:
+        for floor, other in ((pair.a, pair.b), (pair.b, pair.a)):
+            if floor.endless and not holds(floor.body, self._bounds(other.id, other.bounds)):
+                raise Unanswerable(f"{other.id} moves beyond the reach of the half space")
 
     def _posed(self, places: tuple[int, int], t: float) -> Posed:
         mover = next(self._ids[k] for k in places if self._ids[k] in self._moving)

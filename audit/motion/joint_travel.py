@@ -264,7 +264,7 @@ class JointWay:
             start, end = self.times[piece - 1], self.times[piece]
             at = self._travel.at_one(0.5 * (start + end))
             half = np.array([0.5 * (end - start) * _ROUNDED_UP])
-            speed, _ = self._travel.fastest(at, half, self._body, self._joints)
+            speed = self._travel.fastest(at, half, self._body, self._joints)[0]
             self._speeds[piece] = float(speed[0])
         return self._speeds[piece]
 
@@ -281,9 +281,10 @@ class JointWay:
 
     def slack(self, t: float, bounds: Box) -> float:
         """The largest effect of rounding on the rate at which a gap closes."""
-        at, share = self._travel.at_one(t), self._travel.pad / self._travel.reach
-        turned = sum(abs(float(at.rates[j, 0])) for j in self._joints) * self._travel.reach
-        return (RATE_ROUNDOFFS * UNIT_ROUNDOFF + share) * (self.fastest(t, bounds) + turned)
+        rates, reach = self._travel.at_one(t).rates, self._travel.reach
+        turned = float(np.abs(rates[self._joints, 0]).sum()) * reach
+        share = RATE_ROUNDOFFS * UNIT_ROUNDOFF + self._travel.pad / reach
+        return share * (self.fastest(t, bounds) + turned)
 
     def moving_at(
         self, t: float, span: float, offset: Vector = ORIGIN, frame: Transform = IDENTITY

@@ -95,7 +95,15 @@ class MovingPair:
         self.pair = pair
         self._sides = (pair.a, way_a), (pair.b, way_b)
         self.framed = way_a.framed or way_b.framed
-        self.pad, self.tolerance = pad_and_band(pair, way_a, way_b)
+        self.pad = sum(way.pad(body.bounds) + _placing(body, way) for body, way in self._sides)
+        self.pad += sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
+        rounding = PADS_IN_BAND * self.pad
+        size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
+        if not rounding <= max(pair.tolerance, TOUCH_FRACTION * size):
+            raise Unanswerable(
+                f"the motion is so long that rounding moves the bodies by {self.pad:.3g}"
+            )
+        self.tolerance = max(pair.tolerance, rounding)
         self.times = sorted({*way_a.times, *way_b.times})
         self.stretches = list(pairwise(self.times)) if stretches is None else list(stretches)
         self.free_gap = free_gap
@@ -213,19 +221,6 @@ class MovingPair:
         moving_b = way_b.moving_at(t, span, ORIGIN, frame_b)
         slack = sum(way.slack(t, body.bounds) for body, way in self._sides)
         return ask(a, moving_a, b, moving_b, pad=self.pad, slack=slack, **bounds)
-
-
-def pad_and_band(pair: Pair, way_a: Way, way_b: Way) -> tuple[float, float]:
-    """Return the rounding of a gap, and half the width of the touch band. Raises Unanswerable, see
-    `MovingPair`."""
-    sides = (pair.a, way_a), (pair.b, way_b)
-    pad = sum(way.pad(body.bounds) + _placing(body, way) for body, way in sides)
-    pad += sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
-    rounding = PADS_IN_BAND * pad
-    size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
-    if not rounding <= max(pair.tolerance, TOUCH_FRACTION * size):
-        raise Unanswerable(f"the motion is so long that rounding moves the bodies by {pad:.3g}")
-    return pad, max(pair.tolerance, rounding)
 
 
 def holed(pair: Pair) -> list[str]:

@@ -15,7 +15,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.audit.motion.joint_travel import Numbers, Travel
+from satcheck.audit.motion.joint_travel import Moments, Numbers, Travel
 from satcheck.audit.motion.moving_pair import Stretch
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 
@@ -55,26 +55,24 @@ class _Intervals(Struct, frozen=True):
 
 
 def open_stretches(
-    travel: Travel,
-    pairs: PosedPairs,
-    tolerances: Sequence[float],
-    near: Sequence[float],
-    asked: Flags,
+    travel: Travel, pairs: PosedPairs, tolerances: Sequence[float], near: Sequence[float]
 ) -> list[OpenStretches]:
     """Return of each pair when it is not proven farther apart than its tolerance and its clearance.
-    near: the travel at which an interval of a pair is not halved. asked: which pairs."""
+    near: the travel at which an interval of a pair is not halved."""
     times = travel.path.times
     most = INTERVALS + INTERVALS_A_PIECE * (len(times) - 1)
     found: list[list[Stretch]] = [[] for _ in pairs.pairs]
     steps, first_hit = np.zeros(len(found), int), np.full(len(found), inf)
-    waiting = [_Intervals(times[:-1], times[1:], np.tile(asked, (len(times) - 1, 1)))]
+    waiting = [_Intervals(times[:-1], times[1:], np.ones((len(times) - 1, len(found)), bool))]
     while waiting:
         part = waiting.pop()
         if len(part.start) > TOGETHER:
             waiting += (part.at(slice(TOGETHER, None)), part.at(slice(TOGETHER)))
             continue
         steps += part.active.sum(axis=0)
-        travelled, codes = _sorted(travel, pairs, tolerances, part)
+        at = travel.at(0.5 * (part.start + part.end))
+        travelled = _travelled(travel, pairs, at, part)
+        codes = pairs.sift(at.matrices, travelled + tolerances)
         hits = np.where(codes == DEEP, part.start[:, None], inf)
         first_hit = np.minimum(first_hit, hits.min(axis=0))
         unproven = part.active & (codes != APART)
@@ -90,17 +88,14 @@ def open_stretches(
     ]
 
 
-def _sorted(
-    travel: Travel, pairs: PosedPairs, tolerances: Sequence[float], part: _Intervals
-) -> tuple[Numbers, NDArray[np.uint8]]:
+def _travelled(travel: Travel, pairs: PosedPairs, at: Moments, part: _Intervals) -> Numbers:
     """Return how far each pair travels from the middle of each interval to its ends, NaN where it
-    is not asked, and how the core sorts it there."""
-    at, half = travel.at(0.5 * (part.start + part.end)), 0.5 * (part.end - part.start)
-    travelled = np.full(part.active.shape, np.nan)
+    is not asked."""
+    travelled, half = np.full(part.active.shape, np.nan), 0.5 * (part.end - part.start)
     for k in np.flatnonzero(part.active.any(axis=0)).tolist():
         own = travel.between(at, half, *pairs.pairs[k].places)
         travelled[:, k] = np.where(part.active[:, k], own, np.nan)
-    return travelled, pairs.sift(at.matrices, travelled, tolerances)
+    return travelled
 
 
 def _joined(stretches: list[Stretch], times: Collection[float]) -> tuple[Stretch, ...]:
