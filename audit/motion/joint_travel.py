@@ -10,7 +10,7 @@ The joints above both bodies move neither relative to the other.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck import core
-from satcheck.audit.motion.track import ORIGIN, POSE_ROUNDOFFS, RATE_ROUNDOFFS
+from satcheck.audit.motion.track import ORIGIN, POSE_ROUNDOFFS, RATE_ROUNDOFFS, STANDS, Track
 from satcheck.audit.vectors import added
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, compose
@@ -27,6 +27,7 @@ from satcheck.scene import Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot import Joint, JointPath
 from satcheck.scene.robot.kinematics import (
+    inverse,
     link_frames,
     motion,
     placements,
@@ -58,13 +59,15 @@ PARTS = 8
 class Moments(Struct, frozen=True):
     """The robots at some moments.
 
-    matrices: shape (moments, bodies, 12). axes, origins: the axis of each joint that moves, and a
-    point on it, shape (joints, moments, 3). rates, slides: how it turns about the axis and how it
-    moves, per unit of t, shapes (joints, moments) and (joints, moments, 3). centres: of the balls
-    around bodies, shape (bodies, moments, 3).
+    matrices: shape (moments, bodies, 12). frames: of each robot the poses of its links. axes,
+    origins: the axis of each joint that moves, and a point on it, shape (joints, moments, 3).
+    rates, slides: how it turns about the axis and how it moves, per unit of t, shapes (joints,
+    moments) and (joints, moments, 3). centres: of the balls around bodies, shape (bodies, moments,
+    3).
     """
 
     matrices: Numbers
+    frames: Sequence[Mapping[str, Numbers]]
     axes: Numbers
     origins: Numbers
     rates: Numbers
@@ -89,6 +92,11 @@ class Travel:
         self._rates = [
             np.diff(path.values[joint.name]) / np.diff(path.times) for _, joint in self._joints
         ]
+        self._links = {
+            body.id: (number, body.link)
+            for number, robot in enumerate(scene.robots)
+            for body in robot.bodies
+        }
         self._above = self._chains()
         self.at_one = lru_cache(MOMENTS)(lambda t: self.at(np.array([t])))
         self.reach = self._reach()
@@ -108,11 +116,20 @@ class Travel:
         of_a, of_b = self._above[a], self._above[b]
         return [j for j in of_a if j not in of_b], [j for j in of_b if j not in of_a]
 
-    def ways(self, a: int, b: int) -> tuple[JointWay, JointWay]:
+    def ways(self, a: int, b: int) -> tuple[Track | JointWay, Track | JointWay]:
         """The motions of two bodies in that frame."""
         only_a, only_b = self.relative(a, b)
         framed = len(only_a) < len(self._above[a])
-        return JointWay(self, a, only_a, framed), JointWay(self, b, only_b, framed)
+        way_a, way_b = (
+            JointWay(self, body, joints, framed) if self._above[body] else STANDS
+            for body, joints in ((a, only_a), (b, only_b))
+        )
+        return way_a, way_b
+
+    def link_pose(self, t: float, body: int) -> Transform:
+        """The pose of the link of a body that a joint carries."""
+        robot, link = self._links[self._scene.bodies[body].id]
+        return (*self.at_one(t).frames[robot][link][:, :, 0].ravel().tolist(), 0.0, 0.0, 0.0, 1.0)
 
     def at(self, times: Numbers) -> Moments:
         values = self.path.at(times)
@@ -134,7 +151,7 @@ class Travel:
         linear = matrices.reshape(count, -1, 3, 4)
         centres = np.einsum("nbij,bj->bni", linear[..., :3], self._centres)
         centres += linear[..., 3].transpose(1, 0, 2)
-        return Moments(matrices, axes, origins, rates, slides, centres)
+        return Moments(matrices, frames, axes, origins, rates, slides, centres)
 
     def between(self, at: Moments, half: Numbers, a: int, b: int) -> Numbers:
         """An upper bound of how far two bodies move towards each other in a time `half` before or
@@ -167,15 +184,15 @@ class Travel:
 
     def _chains(self) -> list[list[int]]:
         """Of each body the joints that move it, the nearest first."""
-        chains: dict[str, list[int]] = {}
+        chains: dict[tuple[int, str], list[int]] = {}
+        numbers = {(owner, joint.name): k for k, (owner, joint) in enumerate(self._joints)}
         for number, robot in enumerate(self._scene.robots):
-            of_link: dict[str, list[int]] = {link: [] for link in robot.robot.roots}
-            numbers = {j.name: k for k, (owner, j) in enumerate(self._joints) if owner == number}
+            chains |= {(number, link): [] for link in robot.robot.roots}
             for joint in robot.robot.joints:  # parents first
-                own = [numbers[joint.name]] if joint.name in numbers else []
-                of_link[joint.child] = [*own, *of_link[joint.parent]]
-            chains |= {body.id: of_link[body.link] for body in robot.bodies}
-        return [chains.get(body.id, []) for body in self._scene.bodies]
+                own = [numbers[number, joint.name]] if (number, joint.name) in numbers else []
+                chains[number, joint.child] = [*own, *chains[number, joint.parent]]
+        of_body = {id_: chains[link] for id_, link in self._links.items()}
+        return [of_body.get(body.id, []) for body in self._scene.bodies]
 
     def _boxes(self) -> dict[str, Box]:
         start, end = self.path.times[:-1, None], self.path.times[1:, None]
@@ -248,8 +265,7 @@ class JointWay:
 
     def __init__(self, travel: Travel, body: int, joints: Sequence[int], framed: bool) -> None:
         self._travel, self._body, self._joints, self.framed = travel, body, joints, framed
-        placed = travel.at_one(0.0).matrices[0, body].reshape(3, 4)
-        self._back = np.linalg.inv(np.vstack((placed, (0.0, 0.0, 0.0, 1.0))))
+        self._back = inverse(travel.link_pose(0.0, body))
         self.times: list[float] = travel.path.times.tolist()
         self._speeds: dict[int, float] = {}
 
@@ -292,8 +308,7 @@ class JointWay:
         """The place and the motion of the body at t, moved by `offset`. Its bounds hold for `span`
         before and after t. frame: places it before the motion."""
         at, joints = self._travel.at_one(t), self._joints
-        matrix = np.vstack((at.matrices[0, self._body].reshape(3, 4), (0.0, 0.0, 0.0, 1.0)))
-        pose: Transform = tuple((matrix @ self._back).ravel().tolist())
+        pose = compose(self._travel.link_pose(t, self._body), self._back)
         if frame != IDENTITY:
             pose = compose(pose, frame)
         a, b, c, x, d, e, f, y, g, h, i, z = pose[:12]
