@@ -230,8 +230,12 @@ class Travel:
                 stretch = max(float(np.linalg.norm(joint.axis)), 1.0)
                 length += stretch * sum(float(np.abs(own).max()) for own in numbers)
             lengths.append(length)
-        radii = (radius for radius, above in zip(self._radii, self._above, strict=True) if above)
-        return max(lengths) + 2 * max(radii, default=0.0)
+        at = self.at(np.zeros(1))
+        arms = np.linalg.norm(at.centres[:, 0] - at.matrices[0, :, 3::4], axis=1)
+        carried = [k for k, above in enumerate(self._above) if above]
+        return max(lengths) + 2 * max(
+            (self._radii[k] + float(arms[k]) for k in carried), default=0.0
+        )
 
     def _pad(self) -> float:
         angle = 0.0

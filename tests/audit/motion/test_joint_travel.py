@@ -74,3 +74,13 @@ def test_no_point_is_faster_than_its_bounds(
         assert np.linalg.norm(moved, axis=1).max() <= speed
         assert np.linalg.norm(np.diff(moved, axis=0) / STEP, axis=1).max() <= acceleration + 1e-6
         assert travel.ways(frame, 3)[1].fastest(0.5, NOWHERE) >= np.linalg.norm(moved, axis=1).max()
+
+
+def test_rounding_grows_with_the_distance_of_a_mesh_from_its_link(tmp_path: Path) -> None:
+    scene = load_scene([chain(tmp_path, ("revolute",))])
+    path = with_joint_path(scene, [{"j0": (0.0,)}, {"j0": (1.0,)}]).joint_path
+    assert path is not None
+    near, far = (Travel(scene, path, [((x, 0.0, 0.0), RADIUS)] * 2) for x in (0.0, 1e6))
+    assert near.reach < 100
+    assert far.reach >= 1e6
+    assert far.pad >= 1e4 * near.pad
