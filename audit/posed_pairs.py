@@ -6,7 +6,7 @@ The core sorts them without placing a body (`core/native/poses/sift.hpp`).
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -66,15 +66,19 @@ class PosedPairs:
         numbers = [number[body.id] for body in scene.bodies]
         self._bodies = [bodies.placed[k] for k in numbers]
         self._posed = [_posed(body) for body in self._bodies]
-        place = {k: row for row, k in enumerate(numbers)}
-        checked = sorted(
-            (i, j)
-            for i, j in bodies.book.checked_pairs()
-            if i in place and j in place and bodies.units[i] == bodies.units[j]
-        )
+        self._place = {k: row for row, k in enumerate(numbers)}
+        self._placed, self._planner = bodies, planner
+        self.choose(bodies.book.checked_pairs())
+
+    def choose(self, checked: Iterable[tuple[int, int]]) -> None:
+        """Makes these the pairs, by the numbers of their bodies, as far as they can be compared."""
+        bodies, place = self._placed, self._place
         self.pairs = [
-            PosedPair((bodies.ids[i], bodies.ids[j]), (place[i], place[j]), planner.request(i, j))
-            for i, j in checked
+            PosedPair(
+                (bodies.ids[i], bodies.ids[j]), (place[i], place[j]), self._planner.request(i, j)
+            )
+            for i, j in sorted(checked)
+            if i in place and j in place and bodies.is_comparable(i, j)
         ]
         self.deep_fails = np.array([self._deep_fails(pair.request) for pair in self.pairs], bool)
 
@@ -91,37 +95,26 @@ class PosedPairs:
             for (centre, radius), body in zip(balls, self._bodies, strict=True)
         ]
 
-    def tolerance(self, number: int) -> float:
-        """Half the width of the touch band of a pair, as the scene is placed."""
+    def as_placed(self, number: int) -> Pair:
+        """Return a pair as the scene is placed."""
         pair = self.pairs[number]
         a, b = (self._bodies[k] for k in pair.places)
-        return Pair(a, b, self._settings, pair.request).tolerance
+        return Pair(a, b, self._settings, pair.request)
 
-    def sizes(self) -> list[float]:
-        """The size of the smaller body of each pair."""
-        return [min(self._bodies[k].diagonal for k in pair.places) for pair in self.pairs]
-
-    def sift(
-        self,
-        matrices: Numbers,
-        margins: Numbers | None = None,
-        tolerances: Sequence[float] | None = None,
-    ) -> Codes:
+    def sift(self, matrices: Numbers, margins: Numbers | None = None) -> Codes:
         """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: those of `PoseBatch`.
         margins: of the same shape; pairs are APART only if they are farther apart by this much, and
-        those with NaN stay OPEN. tolerances: those of the pairs, on a path of joints; then only
-        they count, and no clearances."""
+        those with NaN stay OPEN."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
-        for k, pair in enumerate(self.pairs):
+        for pair in self.pairs:
             a, b = pair.places
-            tolerance = pair.request.tolerance if tolerances is None else tolerances[k]
+            tolerance = pair.request.tolerance
             if tolerance is None:
                 deviations = (self._bodies[body].body.file.deviation for body in (a, b))
                 tolerance = max(resolutions[a] + resolutions[b], sum(deviations))
             off = max(self._bodies[body].surface_tolerance for body in (a, b))
-            clearance = (tolerances is None and pair.request.clearance) or 0.0
-            gap_limit = max(clearance, tolerance)
+            gap_limit = max(pair.request.clearance or 0.0, tolerance)
             never = pair.request.limited
             depth = inf if never else max(0.5 * tolerance, off)
             # A crossing proves no thickness, and closed bodies with a thin overlap may touch.

@@ -11,7 +11,7 @@ from itertools import combinations
 
 from satcheck import core
 from satcheck.audit.body import PlacedBody
-from satcheck.audit.motion.moving_pair import MovingPair, is_step, overlaps
+from satcheck.audit.motion.moving_pair import MovingPair, overlaps
 from satcheck.audit.pair import Pair
 from satcheck.audit.stages.depth import FREE, relation_after, way_out_of_hulls
 from satcheck.audit.vectors import crossed, scaled, unit
@@ -47,8 +47,10 @@ class ContactOffsets:
         0.0: no offset helps."""
         if self._last is not None:
             on = self._pair.apart(t, end, self._last).time
-            seamless = self._proven_until >= t
-            if is_step(on, t, end) and (seamless or self._frees(self._pair.placed(t), self._last)):
+            seamless = self._proven_until >= t and not self._pair.framed
+            if self._pair.is_step(on, t, end) and (
+                seamless or self._frees(self._pair.placed(t), self._last)
+            ):
                 return self._keep(self._last, t, on)
         placed = self._pair.placed(t)
         ahead = self._ahead(t, end)
@@ -56,7 +58,7 @@ class ContactOffsets:
         for walls in range(1, WALLS + 1):
             for offset in self._offsets(ways, walls):
                 on = self._pair.apart(t, end, offset).time
-                if is_step(on, t, end) and self._frees(placed, offset):
+                if self._pair.is_step(on, t, end) and self._frees(placed, offset):
                     return self._keep(offset, t, on)
             # A contact as short as this does not move the start of the impact (SLID).
             if walls == 1 and overlaps(self._pair.found_at(ahead)):

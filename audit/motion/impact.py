@@ -24,11 +24,9 @@ from msgspec import Struct
 from satcheck import core
 from satcheck.audit.motion.contact_offsets import ContactOffsets
 from satcheck.audit.motion.moving_pair import (
-    SHORTEST_STEP,
     SLID,
     MovingPair,
     Unanswerable,
-    is_step,
     overlaps,
 )
 from satcheck.audit.motion.swept_hull import safe_slide
@@ -76,8 +74,10 @@ class Impact(Struct, frozen=True):
 def first_impact(pair: MovingPair, gaps: Sequence[float] = ()) -> Impact:
     """gaps: the scan proves the largest of these lengths that the bodies stay apart by, if it can
     do so on its way."""
+    if not pair.stretches:
+        return Impact(1.0, None, 1.0, gap=pair.free_gap)
     try:
-        start = pair.found_at(0.0)
+        start = pair.found_at(pair.stretches[0][0])
     except Unanswerable as why:
         return Impact(0.0, None, 0.0, None, str(why))
     if overlaps(start):
@@ -98,7 +98,9 @@ def possible_overlap(pair: MovingPair, start: float) -> float | None:
     """A t >= start at which the bodies may overlap, by the last test that --accuracy allows; None:
     no probe shows one."""
     try:
-        return next((t for t in _probes(start) if pair.found_at(t).relation in OVERLAPS), None)
+        return next(
+            (t for t in _probes(pair, start) if pair.found_at(t).relation in OVERLAPS), None
+        )
     except Unanswerable:
         return None
 
@@ -120,8 +122,16 @@ class _Scan:
         self._offsets = ContactOffsets(pair)
 
     def run(self) -> None:
-        while self.t < 1.0 and self.reason is None:
-            end = self._pair.end_of_piece(self.t)
+        for start, end in self._pair.stretches:
+            if self.reason is not None:
+                return
+            if start > self.t:  # they are apart until there
+                self.t = self.met = start
+                self._outside = True
+            self._scan(end)
+
+    def _scan(self, end: float) -> None:
+        while self.t < end and self.reason is None:
             if self._advance(self._apart(end), end):
                 self.met = self.t
                 continue
@@ -155,10 +165,12 @@ class _Scan:
 
     def _in_contact(self, end: float) -> float:
         on = self._pair.shallow(self.t, end)
-        if is_step(on, self.t, end) or not self._pair.pair.may("exact"):
+        if self._pair.is_step(on, self.t, end) or not self._pair.pair.may("exact"):
             return on
         slide = safe_slide(self._pair, self.t, end)
-        return slide if is_step(slide, self.t, end) else self._offsets.safe_time(self.t, end)
+        if self._pair.is_step(slide, self.t, end):
+            return slide
+        return self._offsets.safe_time(self.t, end)
 
     def impact(self) -> Impact:
         if self.reason is None:
@@ -174,8 +186,8 @@ class _Scan:
         return Impact(self.met, upper, self.t, contact)
 
     def _advance(self, step: float, end: float) -> bool:
-        """Moves t on by the step, which is proven. Returns whether it is a long one (`is_step`)."""
-        is_long = is_step(step, self.t, end)
+        """Moves t on by the step, which is proven. Returns whether it is a long one."""
+        is_long = self._pair.is_step(step, self.t, end)
         later = math.nextafter(self.t + step, 0.0)
         self.t = end if self.t + step >= end else max(self.t, later)
         return is_long
@@ -185,14 +197,14 @@ def _first_overlap(pair: MovingPair, start: float) -> float | None:
     """A t >= start at which the bodies overlap; None: no probe overlaps. The steps first double and
     are then halved, so that t is near the first overlap."""
     before, overlap_time = start, None
-    for t in _probes(start):
+    for t in _probes(pair, start):
         if overlaps(pair.found_at(t)):
             overlap_time = t
             break
         before = t
     if overlap_time is None:
         return None
-    while overlap_time - before > SHORTEST_STEP:
+    while overlap_time - before > pair.shortest_step(before):
         middle = 0.5 * (before + overlap_time)
         if overlaps(pair.found_at(middle)):
             overlap_time = middle
@@ -201,15 +213,17 @@ def _first_overlap(pair: MovingPair, start: float) -> float | None:
     return overlap_time
 
 
-def _probes(start: float) -> list[float]:
-    """After steps that double, and evenly over what is left of the motion."""
-    step, times = SHORTEST_STEP, {start, 1.0}
+def _probes(pair: MovingPair, start: float) -> list[float]:
+    """After steps that double, and evenly over what is left of the motion, where the bodies may
+    meet."""
+    step, times = pair.shortest_step(start), {start, 1.0}
     while start + step < 1.0:
         times.add(start + step)
         step *= 2.0
     rest = 1.0 - start
     times |= {start + rest * k / PROBES for k in range(1, PROBES)}
-    return sorted(times)
+    times |= {0.5 * (s + e) for s, e in pair.stretches if s >= start}
+    return sorted(t for t in times if any(s <= t <= e for s, e in pair.stretches))
 
 
 def impact_point(placed: Pair, moved: float) -> Vector | None:

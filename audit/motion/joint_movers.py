@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
-import numpy as np
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import Box, around_both
 from satcheck.audit.close_pairs import ClosePairs
-from satcheck.audit.motion.joint_search import Search, SweptPair
-from satcheck.audit.motion.joint_travel import Interval, Travel
-from satcheck.audit.motion.sweep import relation_apart, swept, worst_pose
-from satcheck.audit.pair import Moves
+from satcheck.audit.motion.impact import Impact
+from satcheck.audit.motion.joint_travel import Travel
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, holed
+from satcheck.audit.motion.open_stretches import OpenStretches, open_stretches
+from satcheck.audit.motion.sweep import Posed, swept, swept_along
+from satcheck.audit.pair import Moves, Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import PosedPairs
 from satcheck.audit.settings import Settings
@@ -24,11 +25,13 @@ from satcheck.report.motions import JointWaypoint, StatedMotion
 from satcheck.report.report import Issue
 from satcheck.report.sweep import Place, Sweep
 from satcheck.scene import Scene
+from satcheck.scene.half_spaces import holds
 from satcheck.scene.robot import JointPath
-from satcheck.scene.robot.kinematics import Numbers
 
-# Parts of each piece of the path that get a box of their own for the broad phase.
-PARTS = 8
+# Travels, as shares of the smaller body, at which an interval is left to a sweep, and for bodies
+# with holes, whose fills a sweep does not see.
+NEAR = 1 / 256
+NEAREST = 2.0**-20
 
 
 class JointMovers:
@@ -41,35 +44,35 @@ class JointMovers:
         usable = {bodies.ids[k] for k in bodies.placed}
         scene = replace(scene, bodies=tuple(body for body in scene.bodies if body.id in usable))
         self._path = path
+        self._ids = [body.id for body in scene.bodies]
+        self._place = {id_: k for k, id_ in enumerate(self._ids)}
         self._pairs = PosedPairs(scene, bodies, planner)
         self._travel = Travel(scene, path, self._pairs.around())
-        self._search = Search(path, self._travel, self._pairs)
         self._moving = self._travel.moving()
-        self._boxes = self._swept_boxes(scene)
-        self._sweeps: dict[tuple[str, str], Sweep] = {}
+        self._sweeps: dict[tuple[str, str], Callable[[Pair], Sweep]] = {}
 
     def close(self, bodies: PlacedBodies, planner: Planner) -> ClosePairs:
-        """The pairs whose boxes over the whole path are close, swept; `moves` has the results."""
-        close = ClosePairs(bodies, planner, self._bounds)
-        wanted = {(bodies.ids[i], bodies.ids[j]) for i, j in close}
-        pairs = self._pairs.pairs
-        moves = np.array([p.ids in wanted and self._travel.moves(*p.places) for p in pairs], bool)
-        found = self._search.first_overlaps(moves)
-        clearances = np.array([bool(pair.request.clearance) for pair in pairs], bool)
-        near = moves & clearances & np.array([pair.impact.free for pair in found], bool)
-        if near.any():
-            self._search.narrow(near, found)
-        for k in np.flatnonzero(moves).tolist():
-            self._sweeps[pairs[k].ids] = self._swept(k, found[k])
+        """The pairs whose boxes over the whole path are close. `moves` has those that move."""
+        close, ids, place = ClosePairs(bodies, planner, self._bounds), bodies.ids, self._place
+        moves = self._travel.moves
+        self._pairs.choose((i, j) for i, j in close if moves(place[ids[i]], place[ids[j]]))
+        placed = [self._pairs.as_placed(k) for k in range(len(self._pairs.pairs))]
+        near = [
+            (NEAREST if holed(pair) else NEAR) * min(pair.a.diagonal, pair.b.diagonal)
+            for pair in placed
+        ]
+        found = open_stretches(self._travel, self._pairs, [p.tolerance for p in placed], near)
+        for pair, stretches in zip(self._pairs.pairs, found, strict=True):
+            self._sweeps[pair.ids] = partial(self._sweep, pair.places, stretches)
         return close
 
     def _bounds(self, body: str, placed: Box) -> Box:
-        return around_both(placed, self._boxes.get(body, placed))
+        return around_both(placed, self._travel.boxes.get(body, placed))
 
     def moves(self, a: str, b: str) -> Moves | None:
         """None: the bodies do not move relative to each other."""
         sweep = self._sweeps.get((a, b))
-        return None if sweep is None else Moves(lambda _: sweep)
+        return None if sweep is None else Moves(sweep)
 
     def stated(self) -> tuple[StatedMotion, ...]:
         """The path as a report states it."""
@@ -81,45 +84,28 @@ class JointMovers:
     def issues(self, _: Sequence[str]) -> list[Issue]:
         return []
 
-    def _swept(self, k: int, pair: SweptPair) -> Sweep:
-        impact, nearest = pair.impact, pair.nearest
-        if impact.upper is not None:
-            return swept(
-                impact,
-                pair.tolerance,
-                pair.steps,
-                "penetrating",
-                at=self._places(k, impact.upper),
-                point=self._search.impact_point(k, impact.lower, impact.upper),
-                joints=self._path.pose(impact.upper),
-                poses=self._path.poses_around(impact.upper),
-            )
-        if impact.reason is not None:
-            return swept(impact, pair.tolerance, pair.steps)
-        clearance = self._pairs.pairs[k].request.clearance or 0.0
-        worst = nearest if nearest is not None and nearest.upper < clearance else None
-        joints = None if worst is None else self._path.pose(worst.time)
-        return swept(
-            impact,
-            pair.tolerance,
-            pair.steps,
-            relation_apart(impact, worst, pair.tolerance, clearance),
-            worst=worst_pose(worst, partial(self._places, k), joints),
-            distance_at_least=None if nearest is None or worst is not None else nearest.lower,
-        )
+    def _sweep(self, places: tuple[int, int], found: OpenStretches, pair: Pair) -> Sweep:
+        """The sweep of a pair through the stretches of the path in which it may meet."""
+        gap = max(pair.tolerance, pair.request.clearance or 0.0)
+        if not found.stretches:
+            free = Impact(1.0, None, 1.0, gap=gap)
+            return swept(free, pair.tolerance, found.steps, "separated", distance_at_least=gap)
+        try:
+            self._require_reach(pair)
+            moving = MovingPair(pair, *self._travel.ways(*places), found.stretches, gap)
+        except Unanswerable as why:
+            return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, found.steps)
+        moving.steps = found.steps
+        return swept_along(moving, partial(self._posed, places))
 
-    def _places(self, k: int, time: float) -> tuple[Place, ...]:
-        mover = next(id_ for id_ in self._pairs.pairs[k].ids if id_ in self._moving)
-        return (Place(mover, "t", time),)
+    def _require_reach(self, pair: Pair) -> None:
+        for floor, other in ((pair.a, pair.b), (pair.b, pair.a)):
+            if floor.endless and not holds(floor.body, self._bounds(other.id, other.bounds)):
+                raise Unanswerable(f"{other.id} moves beyond the reach of the half space")
 
-    def _swept_boxes(self, scene: Scene) -> dict[str, Box]:
-        at = self._travel.middle(_parts(self._path.times))
-        boxes: dict[str, Box] = {}
-        for number, body in enumerate(scene.bodies):
-            if body.id in self._moving:
-                low, high = self._travel.in_world(at, number)
-                boxes[body.id] = (tuple(low.tolist()), tuple(high.tolist()))
-        return boxes
+    def _posed(self, places: tuple[int, int], t: float) -> Posed:
+        mover = next(self._ids[k] for k in places if self._ids[k] in self._moving)
+        return Posed((Place(mover, "t", t),), self._path.pose(t), self._path.poses_around(t))
 
 
 def _require_answers(scene: Scene, settings: Settings) -> None:
@@ -131,11 +117,3 @@ def _require_answers(scene: Scene, settings: Settings) -> None:
     }
     for what in (what for what, given in refused.items() if given):
         raise SatcheckError("bad-pose", f"a path of joints cannot be checked with {what}")
-
-
-def _parts(times: Numbers) -> Interval:
-    shares = np.linspace(0.0, 1.0, PARTS + 1)
-    start, end = times[:-1, None], times[1:, None]
-    grid = start + (end - start) * shares
-    grid[:, -1] = times[1:]
-    return Interval(grid[:, :-1].ravel(), grid[:, 1:].ravel())

@@ -1,27 +1,44 @@
-"""How far the bodies of robots travel, relative to each other, while their joints move.
+"""How far and how fast the bodies of robots travel, relative to each other, while their joints
+move.
 
 The displacement bound of Fabian Schwarzer, Mitul Saha, Jean-Claude Latombe, "Adaptive Dynamic
 Collision Checking for Single and Multiple Robots in Complex Environments" (2005): a joint that
 turns by an angle moves a point by at most the angle times its distance from the axis. Where we
-deviate: the distances are those in the middle of the interval, plus what the joints nearer to the
-body add to them. The joints above both bodies move neither relative to the other. Of the way over a
-half space that stays, only the part along its normal counts: the gap is the least height.
+deviate: the distances are those at one moment, plus what the joints nearer to the body add to them.
+The joints above both bodies move neither relative to the other.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.core.half_space import plane_of
+from satcheck import core
+from satcheck.audit.motion.track import ORIGIN, POSE_ROUNDOFFS, RATE_ROUNDOFFS, STANDS, Track
+from satcheck.audit.vectors import added
 from satcheck.core.rounding import UNIT_ROUNDOFF
+from satcheck.core.transform import Transform, compose
 from satcheck.scene import Scene
-from satcheck.scene.bodies import is_half_space
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot import Joint, JointPath
-from satcheck.scene.robot.kinematics import link_frames, motion, placements, poses_of, within
+from satcheck.scene.robot.kinematics import (
+    inverse,
+    link_frames,
+    motion,
+    placements,
+    plane_axes,
+    poses_of,
+    within,
+)
+
+if TYPE_CHECKING:
+    from satcheck.audit.body import Box
+    from satcheck.core.conventions import Vector
 
 Numbers = NDArray[np.float64]
 Ball = tuple[tuple[float, float, float], float]
@@ -31,46 +48,39 @@ Ball = tuple[tuple[float, float, float], float]
 JOINT_ROUNDOFFS = 64
 # The bound itself is a short sum of products.
 _ROUNDED_UP = 1 + 1e-12
-# The rounding of the angle between a joint and a normal, in roundoffs.
-_ANGLE_ROUNDOFFS = 16
 # How many numbers of a joint are lengths; the others turn it.
 _LENGTHS = {"prismatic": 1, "planar": 2, "floating": 3, "free": 3}
+# Moments that are kept, because both bodies of a pair ask about them, and threads at a time.
+MOMENTS = 64
+# Parts of each piece of the path that get a box of their own.
+PARTS = 8
 
 
-class Interval(Struct, frozen=True):
-    """Intervals of t, each between two poses of the path."""
+class Moments(Struct, frozen=True):
+    """The robots at some moments.
 
-    start: Numbers
-    end: Numbers
-
-    @property
-    def middle(self) -> Numbers:
-        return 0.5 * (self.start + self.end)
-
-
-class Middle(Struct, frozen=True):
-    """The robots in the middle of intervals.
-
-    matrices: shape (intervals, bodies, 12). axes, origins: the axis of each joint that
-    moves, and a point on it, shape (joints, intervals, 3). turns, shifts: how far each joint turns
-    and slides until the ends of the interval, shape (joints, intervals). centres: of the balls
-    around bodies, shape (bodies, intervals, 3). pad: how far rounding moves a point.
+    matrices: shape (moments, bodies, 12). frames: of each robot the poses of its links. axes,
+    origins: the axis of each joint that moves, and a point on it, shape (joints, moments, 3).
+    rates, slides: how it turns about the axis and how it moves, per unit of t, shapes (joints,
+    moments) and (joints, moments, 3). centres: of the balls around bodies, shape (bodies, moments,
+    3).
     """
 
     matrices: Numbers
+    frames: Sequence[Mapping[str, Numbers]]
     axes: Numbers
     origins: Numbers
-    turns: Numbers
-    shifts: Numbers
+    rates: Numbers
+    slides: Numbers
     centres: Numbers
-    pad: float
 
 
 class Travel:
-    """around: of each body of the scene, see `PosedPairs.around`."""
+    """around: of each body of the scene, see `PosedPairs.around`. pad: how far rounding moves a
+    point. boxes: around the bodies that move, over the whole path."""
 
     def __init__(self, scene: Scene, path: JointPath, around: Sequence[Ball]) -> None:
-        self._scene, self._path = scene, path
+        self._scene, self.path = scene, path
         self._centres = np.array([centre for centre, _ in around]).reshape(-1, 3)
         self._radii = [radius for _, radius in around]
         self._joints = [
@@ -79,12 +89,19 @@ class Travel:
             for joint in robot.robot.joints
             if joint.name in path.moving
         ]
-        self._above = self._chains()
-        self._floors = {
-            number: np.array(plane_of(body.transform).unit)
-            for number, body in enumerate(scene.bodies)
-            if is_half_space(body) and not self._above[number]
+        self._rates = [
+            np.diff(path.values[joint.name]) / np.diff(path.times) for _, joint in self._joints
+        ]
+        self._links = {
+            body.id: (number, body.link)
+            for number, robot in enumerate(scene.robots)
+            for body in robot.bodies
         }
+        self._above = self._chains()
+        self.at_one = lru_cache(MOMENTS)(lambda t: self.at(np.array([t])))
+        self.reach = self._reach()
+        self.pad = self._pad()
+        self.boxes = self._boxes()
 
     def moves(self, a: int, b: int) -> bool:
         """Whether two bodies move relative to each other, by their numbers in the scene."""
@@ -94,121 +111,228 @@ class Travel:
         """The bodies that move."""
         return [b.id for b, above in zip(self._scene.bodies, self._above, strict=True) if above]
 
-    def middle(self, intervals: Interval) -> Middle:
-        values = self._path.at(intervals.middle)
-        count = len(intervals.start)
+    def relative(self, a: int, b: int) -> tuple[list[int], list[int]]:
+        """The joints that move two bodies in the frame that the joints above both carry."""
+        of_a, of_b = self._above[a], self._above[b]
+        return [j for j in of_a if j not in of_b], [j for j in of_b if j not in of_a]
+
+    def ways(self, a: int, b: int) -> tuple[Track | JointWay, Track | JointWay]:
+        """The motions of two bodies in that frame."""
+        only_a, only_b = self.relative(a, b)
+        framed = len(only_a) < len(self._above[a])
+        way_a, way_b = (
+            JointWay(self, body, joints, framed) if self._above[body] else STANDS
+            for body, joints in ((a, only_a), (b, only_b))
+        )
+        return way_a, way_b
+
+    def link_pose(self, t: float, body: int) -> Transform:
+        """The pose of the link of a body that a joint carries."""
+        robot, link = self._links[self._scene.bodies[body].id]
+        return (*self.at_one(t).frames[robot][link][:, :, 0].ravel().tolist(), 0.0, 0.0, 0.0, 1.0)
+
+    def at(self, times: Numbers) -> Moments:
+        values = self.path.at(times)
+        count = len(times)
         frames = link_frames(self._scene, values)
         matrices = placements(self._scene, frames, count)
-        placed = [_moved(joint, frames[number], values) for number, joint in self._joints]
-        movers = [joint for _, joint in self._joints]
-        axes = [_turned(poses, joint) for poses, joint in zip(placed, movers, strict=True)]
-        origins = np.array([poses[:, 3].T for poses in placed])
-        turns, shifts = self._steps(intervals)
+        pieces = np.clip(np.searchsorted(self.path.times, times, "right") - 1, 0, self._pieces - 1)
+        axes, origins, slides = (np.empty((len(self._joints), count, 3)) for _ in range(3))
+        rates = np.zeros((len(self._joints), count))
+        for j, (number, joint) in enumerate(self._joints):
+            before = within(frames[number][joint.parent], poses_of(joint.origin))
+            own = within(before, motion(joint, values[joint.name]))
+            axis = np.array(joint.axis)
+            origins[j] = own[:, 3].T
+            axes[j] = own.transpose(2, 0, 1)[..., :3] @ (axis / np.linalg.norm(axis))
+            rate, shift = _steady(joint, self._rates[j][:, pieces])
+            rates[j] = rate
+            slides[j] = np.einsum("ikn,kn->ni", before[:, :3] + np.zeros((1, 1, count)), shift)
         linear = matrices.reshape(count, -1, 3, 4)
         centres = np.einsum("nbij,bj->bni", linear[..., :3], self._centres)
         centres += linear[..., 3].transpose(1, 0, 2)
-        reach = float(np.abs(matrices[:, :, 3::4]).max(initial=0.0)) + 2 * max(
-            self._radii, default=0.0
-        )
-        reach += float(np.abs(origins).max(initial=0.0))
-        return Middle(
-            matrices, np.array(axes), origins, turns, shifts, centres, self._pad(values, reach)
-        )
+        return Moments(matrices, frames, axes, origins, rates, slides, centres)
 
-    def between(self, at: Middle, a: int, b: int) -> Numbers:
-        """An upper bound of how far any point of B moves in the frame of A, or one of A in that of
-        B, from the middle of each interval until its ends, rounding included. Over a half space
-        that stays: of how much its height changes."""
-        for floor, other in ((a, b), (b, a)):
-            if floor in self._floors:
-                up = self._floors[floor]
-                return self._carried(at, other, self._above[other], up) * _ROUNDED_UP + 2 * at.pad
-        only_a = [j for j in self._above[a] if j not in self._above[b]]
-        only_b = [j for j in self._above[b] if j not in self._above[a]]
-        of_b = self._carried(at, b, [*only_b, *reversed(only_a)])
-        of_a = self._carried(at, a, [*only_a, *reversed(only_b)])
-        return np.minimum(of_a, of_b) * _ROUNDED_UP + 2 * at.pad
+    def between(self, at: Moments, half: Numbers, a: int, b: int) -> Numbers:
+        """An upper bound of how far two bodies move towards each other in a time `half` before or
+        after each moment, rounding included."""
+        only_a, only_b = self.relative(a, b)
+        speed_a, _ = self.fastest(at, half, a, only_a)
+        speed_b, _ = self.fastest(at, half, b, only_b)
+        return (speed_a + speed_b) * half * _ROUNDED_UP + 2 * self.pad
 
-    def in_world(self, at: Middle, body: int) -> tuple[Numbers, Numbers]:
-        """(lower, upper) corners of a box around a body in all of these intervals."""
-        grown = self._radii[body] + self._carried(at, body, self._above[body]) * _ROUNDED_UP
-        grown += at.pad
-        centres = at.centres[body]
-        return (centres - grown[:, None]).min(axis=0), (centres + grown[:, None]).max(axis=0)
+    def fastest(
+        self, at: Moments, half: Numbers, body: int, joints: Sequence[int]
+    ) -> tuple[Numbers, Numbers]:
+        """Upper bounds of the speed and the acceleration of all points of a body that these joints
+        carry, the nearest first, from a time `half` before each moment until as long after it.
 
-    def _carried(
-        self, at: Middle, body: int, joints: Sequence[int], up: Numbers | None = None
-    ) -> Numbers:
-        """joints: those that carry the body, the nearest first. up: a normal, along which alone the
-        way counts. Nearer joints move first, so each moves about its axis in the middle."""
-        total = np.zeros(len(at.matrices))
-        risen = np.zeros(len(at.matrices))
+        A joint adds its turning rate times the distance from its axis to the speed. Nearer joints
+        add to this distance. The joints above it turn the velocity that it adds, and it turns that
+        and the velocities of the joints nearer to the body.
+        """
+        speed, acceleration = np.zeros(len(half)), np.zeros(len(half))
         for j in joints:
-            from_origin = at.centres[body] - at.origins[j]
+            from_origin, rate = at.centres[body] - at.origins[j], np.abs(at.rates[j])
             along = (from_origin * at.axes[j]).sum(axis=1)[:, None] * at.axes[j]
+            slide = np.linalg.norm(at.slides[j], axis=1)
             lever = np.linalg.norm(from_origin - along, axis=1) + self._radii[body]
-            lever += total + at.shifts[j]
-            turned = np.minimum(at.turns[j], 2.0) * lever
-            total += at.shifts[j] + turned
-            if up is not None:
-                rise = np.abs(at.axes[j] @ up)
-                across = np.linalg.norm(np.cross(at.axes[j], up), axis=1)
-                slides = self._joints[j][1].kind == "prismatic"
-                risen += at.shifts[j] * (rise if slides else across) + turned * across
-        return total if up is None else risen + _ANGLE_ROUNDOFFS * UNIT_ROUNDOFF * total
+            own = rate * (lever + (speed + slide) * half) + slide
+            acceleration += rate * (own + 2.0 * speed)
+            speed += own
+        return speed * _ROUNDED_UP, acceleration * _ROUNDED_UP
 
     def _chains(self) -> list[list[int]]:
         """Of each body the joints that move it, the nearest first."""
-        chains: dict[str, list[int]] = {}
+        chains: dict[tuple[int, str], list[int]] = {}
+        numbers = {(owner, joint.name): k for k, (owner, joint) in enumerate(self._joints)}
         for number, robot in enumerate(self._scene.robots):
-            of_link: dict[str, list[int]] = {link: [] for link in robot.robot.roots}
-            numbers = {j.name: k for k, (owner, j) in enumerate(self._joints) if owner == number}
+            chains |= {(number, link): [] for link in robot.robot.roots}
             for joint in robot.robot.joints:  # parents first
-                own = [numbers[joint.name]] if joint.name in numbers else []
-                of_link[joint.child] = [*own, *of_link[joint.parent]]
-            chains |= {body.id: of_link[body.link] for body in robot.bodies}
-        return [chains.get(body.id, []) for body in self._scene.bodies]
+                own = [numbers[number, joint.name]] if (number, joint.name) in numbers else []
+                chains[number, joint.child] = [*own, *chains[number, joint.parent]]
+        of_body = {id_: chains[link] for id_, link in self._links.items()}
+        return [of_body.get(body.id, []) for body in self._scene.bodies]
 
-    def _steps(self, intervals: Interval) -> tuple[Numbers, Numbers]:
-        """(turns, shifts) of `Middle`."""
-        starts, ends = self._path.at(intervals.start), self._path.at(intervals.end)
-        turns, shifts = [], []
-        none = np.zeros(len(intervals.start))
-        for _, joint in self._joints:
-            steps = [
-                0.5 * np.abs(end - start)
-                for start, end in zip(starts[joint.name], ends[joint.name], strict=True)
-            ]
-            if joint.kind == "prismatic":
-                turn, shift = none, steps[0] * float(np.linalg.norm(joint.axis))
-            elif joint.kind == "planar":
-                turn, shift = steps[2], np.hypot(steps[0], steps[1])
-            else:
-                turn, shift = steps[0], none
-            turns.append(turn)
-            shifts.append(shift)
-        return np.array(turns), np.array(shifts)
+    def _boxes(self) -> dict[str, Box]:
+        start, end = self.path.times[:-1, None], self.path.times[1:, None]
+        shares = (np.arange(PARTS) + 0.5) / PARTS
+        at = self.at((start + (end - start) * shares).ravel())
+        half = np.repeat((end - start) * (0.5 / PARTS) * _ROUNDED_UP, PARTS)
+        boxes: dict[str, Box] = {}
+        for k, body in enumerate(self._scene.bodies):
+            if not self._above[k]:
+                continue
+            speed, _ = self.fastest(at, half, k, self._above[k])
+            grown = self._radii[k] + speed * half * _ROUNDED_UP + self.pad
+            low = (at.centres[k] - grown[:, None]).min(axis=0)
+            high = (at.centres[k] + grown[:, None]).max(axis=0)
+            boxes[body.id] = tuple(low.tolist()), tuple(high.tolist())
+        return boxes
 
-    def _pad(self, values: Mapping[str, Numbers], reach: float) -> float:
-        angle = length = 0.0
+    @property
+    def _pieces(self) -> int:
+        return len(self.path.times) - 1
+
+    def _reach(self) -> float:
+        """A bound of the coordinates of all joints and moving bodies, and of their sum: no chain is
+        longer than all lengths in a robot together."""
+        lengths = [0.0]
+        for robot in self._scene.robots:
+            model = robot.robot
+            poses = [pose for joint in model.joints for pose in (joint.origin, joint.child_origin)]
+            poses += model.roots.values()
+            poses += [link.rest for link in model.links.values() if link.rest is not None]
+            poses += [body.offset for body in robot.bodies]
+            length = sum(float(np.linalg.norm(pose[3:12:4])) for pose in poses)
+            for joint in model.joints:
+                numbers = self.path.values.get(joint.name, ())[: _LENGTHS.get(joint.kind, 0)]
+                stretch = max(float(np.linalg.norm(joint.axis)), 1.0)
+                length += stretch * sum(float(np.abs(own).max()) for own in numbers)
+            lengths.append(length)
+        at = self.at(np.zeros(1))
+        arms = np.linalg.norm(at.centres[:, 0] - at.matrices[0, :, 3::4], axis=1)
+        carried = [k for k, above in enumerate(self._above) if above]
+        return max(lengths) + 2 * max(
+            (self._radii[k] + float(arms[k]) for k in carried), default=0.0
+        )
+
+    def _pad(self) -> float:
+        angle = 0.0
         for robot in self._scene.robots:
             for joint in robot.robot.joints:
-                sizes = [float(np.abs(number).max()) for number in values.get(joint.name, ())]
-                lengths = _LENGTHS.get(joint.kind, 0)
-                length = max([length, *sizes[:lengths]])
-                angle = max([angle, *sizes[lengths:]])
+                turns = self.path.values.get(joint.name, ())[_LENGTHS.get(joint.kind, 0) :]
+                angle = max([angle, *(float(np.abs(own).max()) for own in turns)])
         depth = max((len(robot.robot.joints) for robot in self._scene.robots), default=0)
-        return JOINT_ROUNDOFFS * UNIT_ROUNDOFF * (depth + 1) * (1 + angle) * (reach + length)
+        return JOINT_ROUNDOFFS * UNIT_ROUNDOFF * (depth + 1) * (1 + angle) * self.reach
 
 
-def _moved(joint: Joint, links: Mapping[str, Numbers], values: Mapping[str, Numbers]) -> Numbers:
-    """The frame of a joint after its own motion: a planar joint turns about where it has slid."""
-    own = motion(joint, values[joint.name])
-    return within(within(links[joint.parent], poses_of(joint.origin)), own)
+def _steady(joint: Joint, rates: Numbers) -> tuple[Numbers, Numbers]:
+    """How a joint turns, and how it slides in its frame before its own motion, shape (3, moments).
+    A planar joint turns about where it has slid."""
+    if joint.kind == "prismatic":
+        return np.zeros_like(rates[0]), np.array(joint.axis)[:, None] * rates[0]
+    if joint.kind == "planar":
+        x, y = (np.array(axis)[:, None] for axis in plane_axes(joint.axis))
+        return rates[2], x * rates[0] + y * rates[1]
+    return rates[0], np.zeros((3, len(rates[0])))
 
 
-def _turned(poses: Numbers, joint: Joint) -> Numbers:
-    """The unit axis of a joint in the world."""
-    axis = np.array(joint.axis)
-    turned: Numbers = poses.transpose(2, 0, 1)[..., :3] @ (axis / np.linalg.norm(axis))
-    return turned
+class JointWay:
+    """The motion of a body on a path of joints, as `Track` is one. At every moment its rates are
+    those that the frame above both bodies of a pair sees, in the directions of the world.
+
+    joints: those that carry the body in that frame, the nearest first. framed: that frame moves.
+    """
+
+    moves = True
+
+    def __init__(self, travel: Travel, body: int, joints: Sequence[int], framed: bool) -> None:
+        self._travel, self._body, self._joints, self.framed = travel, body, joints, framed
+        self._back = inverse(travel.link_pose(0.0, body))
+        self.times: list[float] = travel.path.times.tolist()
+        self._speeds: dict[int, float] = {}
+
+    def placement(self, t: float, _: Transform | None) -> Transform:
+        """The placement of the body at t."""
+        return (*self._travel.at_one(t).matrices[0, self._body].tolist(), 0.0, 0.0, 0.0, 1.0)
+
+    def fastest(self, t: float, _: Box) -> float:
+        """An upper bound of the speed of any point of the body in the piece of t."""
+        piece = min(int(np.searchsorted(self._travel.path.times, t, "right")), len(self.times) - 1)
+        if piece not in self._speeds:
+            start, end = self.times[piece - 1], self.times[piece]
+            at = self._travel.at_one(0.5 * (start + end))
+            half = np.array([0.5 * (end - start) * _ROUNDED_UP])
+            speed = self._travel.fastest(at, half, self._body, self._joints)[0]
+            self._speeds[piece] = float(speed[0])
+        return self._speeds[piece]
+
+    def velocity(self, t: float) -> Vector | None:
+        """Of all points, in the piece of t; None: the body turns."""
+        at = self._travel.at_one(t)
+        if any(at.rates[j, 0] for j in self._joints):
+            return None
+        return _vector(sum((at.slides[j, 0] for j in self._joints), np.zeros(3)))
+
+    def pad(self, _: Box) -> float:
+        """The largest effect of rounding on a point of the body, and on a gap there."""
+        return 3 * self._travel.pad + POSE_ROUNDOFFS * UNIT_ROUNDOFF * self._travel.reach
+
+    def slack(self, t: float, bounds: Box) -> float:
+        """The largest effect of rounding on the rate at which a gap closes."""
+        rates, reach = self._travel.at_one(t).rates, self._travel.reach
+        turned = float(np.abs(rates[self._joints, 0]).sum()) * reach
+        share = RATE_ROUNDOFFS * UNIT_ROUNDOFF + self._travel.pad / reach
+        return share * (self.fastest(t, bounds) + turned)
+
+    def moving_at(
+        self, t: float, span: float, offset: Vector = ORIGIN, frame: Transform = IDENTITY
+    ) -> core.Moving:
+        """The place and the motion of the body at t, moved by `offset`. Its bounds hold for `span`
+        before and after t. frame: places it before the motion."""
+        at, joints = self._travel.at_one(t), self._joints
+        pose = compose(self._travel.link_pose(t, self._body), self._back)
+        if frame != IDENTITY:
+            pose = compose(pose, frame)
+        a, b, c, x, d, e, f, y, g, h, i, z = pose[:12]
+        centre = at.origins[joints[0], 0] if joints else np.zeros(3)
+        spin, velocity = np.zeros(3), np.zeros(3)
+        for j in joints:
+            turn = at.rates[j, 0] * at.axes[j, 0]
+            spin += turn
+            velocity += at.slides[j, 0] + np.cross(turn, centre - at.origins[j, 0])
+        # Joints that slide carry the axis of the nearest one along a line.
+        unsteady = (0.0, 0.0)
+        if any(at.rates[j, 0] for j in joints[1:]):
+            half = np.array([span * _ROUNDED_UP])
+            speed, acceleration = self._travel.fastest(at, half, self._body, joints)
+            unsteady = float(speed[0]), float(acceleration[0])
+        turned, shift = ((a, b, c), (d, e, f), (g, h, i)), added((x, y, z), offset)
+        about = added(_vector(centre), offset)
+        return core.Moving(turned, shift, about, _vector(velocity), _vector(spin), *unsteady)
+
+
+def _vector(numbers: Numbers) -> Vector:
+    x, y, z = numbers.tolist()
+    return x, y, z

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from itertools import chain
+from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -13,12 +13,12 @@ from satcheck import core
 from satcheck.audit.body import PlacedBody, diagonal
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
-from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, Track
+from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS
 from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.planner import ALWAYS
 from satcheck.core.curved.placed import rows_of
 from satcheck.core.rounding import UNIT_ROUNDOFF
-from satcheck.core.transform import Transform, compose, placed
+from satcheck.core.transform import Transform, placed
 from satcheck.report.report import OVERLAPS
 from satcheck.report.request import Request
 from satcheck.scene.bodies import IDENTITY
@@ -26,22 +26,31 @@ from satcheck.scene.bodies import IDENTITY
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from satcheck.audit.motion.joint_travel import JointWay
+    from satcheck.audit.motion.track import Track
     from satcheck.core.conventions import Vector
     from satcheck.report.report import Finding
 
     Ask = Callable[..., core.MotionAnswer]
     Side = tuple[core.Surface | core.Shape, Transform]
+    Way = Track | JointWay
 
+
+Stretch = tuple[float, float]
 
 # The budget and the resolution of a sweep, in steps and shares of t, never in seconds.
 # If a step is shorter than this share of the motion, the bodies count as in contact. The first
-# overlap is searched down to the same share.
+# overlap is searched down to the same share. It is shorter, down to FINEST_STEP, where the bodies
+# move by more than their touch band meanwhile.
 SHORTEST_STEP = 2.0**-30
+FINEST_STEP = 2.0**-46
 # A contact that lasts for more touch bands of motion than this is a contact of its own; a shorter
 # one is the start of an overlap.
 SLID = 64
-# Queries about one pair: how long it stays free, how large its gap is.
+# Queries about one pair, and for each piece of its motion: how long it stays free, how large its
+# gap is.
 STEPS = 4096
+STEPS_A_PIECE = 64
 # Pairs of boxes and triangles that all these queries may visit: a few seconds.
 VISITS = 10_000_000
 # The least touch band of a sweep, in units of the rounding of a pose.
@@ -69,17 +78,24 @@ class Obstacle(Struct, frozen=True):
 
 class MovingPair:
     """World frame. tolerance: half width of the touch band, at least the rounding of poses. pad:
-    the rounding of a gap. hulls_apart: whether the hulls alone have answered all queries so far.
-    Raises Unanswerable if the rounding would make the band wide for bodies of this size.
+    the rounding of a gap. stretches: times between which the bodies may meet, each within one piece
+    of steady motion; elsewhere they are farther apart than free_gap. framed: the frame of both
+    bodies turns in the world. hulls_apart: whether the hulls alone have answered all queries so
+    far. Raises Unanswerable if the rounding would make the band wide for bodies of this size.
     """
 
-    def __init__(self, pair: Pair, track_a: Track, track_b: Track) -> None:
+    def __init__(
+        self,
+        pair: Pair,
+        way_a: Way,
+        way_b: Way,
+        stretches: Sequence[Stretch] | None = None,
+        free_gap: float = math.inf,
+    ) -> None:
         self.pair = pair
-        self.track_a = track_a
-        self.track_b = track_b
-        self._sides = (pair.a, track_a), (pair.b, track_b)
-        self.pad = sum(track.pad(body.bounds) for body, track in self._sides)
-        self.pad += sum(_placing(body, track) for body, track in self._sides)
+        self._sides = (pair.a, way_a), (pair.b, way_b)
+        self.framed = way_a.framed or way_b.framed
+        self.pad = sum(way.pad(body.bounds) + _placing(body, way) for body, way in self._sides)
         self.pad += sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
         rounding = PADS_IN_BAND * self.pad
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
@@ -88,35 +104,38 @@ class MovingPair:
                 f"the motion is so long that rounding moves the bodies by {self.pad:.3g}"
             )
         self.tolerance = max(pair.tolerance, rounding)
-        self.times = sorted({*track_a.times, *track_b.times})
+        self.times = sorted({*way_a.times, *way_b.times})
+        self.stretches = list(pairwise(self.times)) if stretches is None else list(stretches)
+        self.free_gap = free_gap
+        self._most_steps = STEPS + STEPS_A_PIECE * (len(self.times) - 2)
         self.convex = all(body.curved is not None or body.convex for body in (pair.a, pair.b))
         self.hulls_apart = True
         self.steps = 0
         self.visits = 0
 
-    def end_of_piece(self, t: float) -> float:
-        """The end of the piece of steady motion that contains t < 1."""
-        return next(time for time in self.times if time > t)
-
     def fastest(self, t: float) -> float:
         """An upper bound of the speed of a point of A relative to B, in the piece of t, per unit of
         t."""
-        return sum(track.piece_at(t).fastest(body.bounds) for body, track in self._sides)
+        return sum(way.fastest(t, body.bounds) for body, way in self._sides)
+
+    def shortest_step(self, t: float) -> float:
+        """The share of the motion down to which times are told apart, in the piece of t."""
+        speed = self.fastest(t)
+        share = self.tolerance / speed if speed > 0.0 else math.inf
+        return max(min(share, SHORTEST_STEP), FINEST_STEP)
+
+    def is_step(self, step: float, t: float, end: float) -> bool:
+        """Return whether a step from t on is long enough to be one, or reaches the end."""
+        return t + step >= end or step >= self.shortest_step(t)
 
     def path_length(self, start: float, end: float) -> float:
         """An upper bound of the way of a point of A relative to B from start to end."""
         times = [start, *(time for time in self.times if start < time < end)]
         return max(map(self.fastest, times)) * (end - start)
 
-    @property
-    def holed(self) -> list[str]:
-        """The bodies with holes whose fill may matter. Sheets have no inside, and with --allow-open
-        every open part is a sheet."""
-        pair = self.pair
-        if pair.settings.allow_open:
-            return []
-        bodies = (body.body for body in (pair.a, pair.b))
-        return [body.id for body in bodies if body.file.health.holes and not body.open]
+    def velocities(self, t: float) -> list[Vector | None]:
+        """Of all points of A and of B, in the piece of t; None: the body turns."""
+        return [way.velocity(t) for _, way in self._sides]
 
     def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> Obstacle:
         """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
@@ -157,7 +176,7 @@ class MovingPair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
         requested."""
         try:
-            a, b = (_placed(body, track, t) for body, track in self._sides)
+            a, b = (_placed(body, way, t) for body, way in self._sides)
         except (ValueError, OverflowError) as error:
             raise Unanswerable(f"a body cannot be placed at t = {t:.6g}: {error}") from None
         return replace(
@@ -193,23 +212,29 @@ class MovingPair:
         self, ask: Ask, t: float, offset: Vector, sides: Sequence[Side], **bounds: float
     ) -> core.MotionAnswer:
         self.steps += 1
-        if self.steps > STEPS or self.visits >= VISITS:
+        if self.steps > self._most_steps or self.visits >= VISITS:
             raise BudgetSpent
         (a, frame_a), (b, frame_b) = sides
-        moving_a = self.track_a.moving_at(t, offset, frame_a)
-        moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
-        slack = sum(track.piece_at(t).slack(body.bounds) for body, track in self._sides)
+        (_, way_a), (_, way_b) = self._sides
+        span = bounds.get("limit", bounds.get("window", 0.0))
+        moving_a = way_a.moving_at(t, span, offset, frame_a)
+        moving_b = way_b.moving_at(t, span, ORIGIN, frame_b)
+        slack = sum(way.slack(t, body.bounds) for body, way in self._sides)
         return ask(a, moving_a, b, moving_b, pad=self.pad, slack=slack, **bounds)
+
+
+def holed(pair: Pair) -> list[str]:
+    """Return the bodies with holes whose fill may matter. Sheets have no inside, and with
+    --allow-open every open part is a sheet."""
+    if pair.settings.allow_open:
+        return []
+    bodies = (body.body for body in (pair.a, pair.b))
+    return [body.id for body in bodies if body.file.health.holes and not body.open]
 
 
 def found(pair: Pair) -> Finding:
     """The finding of a pair in one pose."""
     return examine(Draft(pair))
-
-
-def is_step(step: float, t: float, end: float) -> bool:
-    """Return whether a step from t on is long enough to be one, or reaches the end."""
-    return step >= SHORTEST_STEP or t + step >= end
 
 
 def overlaps(finding: Finding) -> bool:
@@ -225,11 +250,11 @@ def _shape_of(body: PlacedBody) -> Side:
     return body.curved.shape, placed(turn, body.curved.centre)
 
 
-def _placing(body: PlacedBody, track: Track) -> float:
+def _placing(body: PlacedBody, way: Way) -> float:
     """How far the rounding of a placement matrix may move a point of the body, world units. It
     depends on the coordinates in the file, which may be far larger than those in the world."""
     transform = body.body.transform
-    if transform is None or not track.moves:
+    if transform is None or not way.moves:
         return 0.0
     low, high = body.body.file.mesh.bounds
     reach = math.hypot(*(transform[4 * row + 3] for row in range(3)))
@@ -239,8 +264,8 @@ def _placing(body: PlacedBody, track: Track) -> float:
     return PLACING_ROUNDOFFS * UNIT_ROUNDOFF * reach
 
 
-def _placed(body: PlacedBody, track: Track, t: float) -> PlacedBody:
-    if not track.moves:
+def _placed(body: PlacedBody, way: Way, t: float) -> PlacedBody:
+    if not way.moves:
         return body
-    moved = compose(track.pose_at(t), body.body.transform or IDENTITY)
+    moved = way.placement(t, body.body.transform)
     return PlacedBody(replace(body.body, transform=moved), body.shared)

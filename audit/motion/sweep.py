@@ -6,11 +6,12 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.motion.impact import Impact, first_impact, impact_point, possible_overlap
-from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
-from satcheck.audit.motion.track import STANDS, track_of
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, holed
+from satcheck.audit.motion.track import STANDS, Track, track_of
 from satcheck.audit.motion.worst import (
     Worst,
     deepest_pose,
@@ -21,38 +22,56 @@ from satcheck.audit.pair import Pair
 from satcheck.report.sweep import Joints, Place, Sweep, SweptRelation, WorstPose
 from satcheck.scene.motion import Path, Rotation, Translation
 
-Places = Callable[[float], tuple[Place, ...]]
+
+class Posed(Struct, frozen=True):
+    """The pose of both bodies at a time, as a report states it; see `Sweep`."""
+
+    at: tuple[Place, ...]
+    joints: Joints | None = None
+    poses: tuple[int, int] | None = None
+
+
+Poses = Callable[[float], Posed]
 
 
 def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
     """path_a, path_b: the motions of the bodies; None: at rest. The bodies must not share a path,
     because then they do not move relative to each other.
     """
-    tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
+
+    def posed(t: float) -> Posed:
+        paths = ((pair.a.id, path_a), (pair.b.id, path_b))
+        return Posed(tuple(_place(body, path, t) for body, path in paths if path is not None))
+
     try:
-        moving = MovingPair(pair, *tracks)
+        moving = MovingPair(pair, _track(path_a), _track(path_b))
     except Unanswerable as why:
         return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, 0)
+    return swept_along(moving, posed)
 
-    def places(t: float) -> tuple[Place, ...]:
-        paths = ((pair.a.id, path_a), (pair.b.id, path_b))
-        return tuple(_place(body, path, t) for body, path in paths if path is not None)
 
+def _track(path: Path | None) -> Track:
+    return STANDS if path is None else track_of(path)
+
+
+def swept_along(moving: MovingPair, posed: Poses) -> Sweep:
+    """The sweep of two bodies on their ways. posed: their poses for the report."""
+    pair = moving.pair
     if not pair.may("hull"):
         reason = f"bodies are not swept at --accuracy {pair.settings.accuracy}"
         impact = Impact(0.0, None, 0.0, reason=reason)
     else:
         impact = first_impact(moving, _gaps(moving))
     if impact.upper is not None:
-        return _hit(moving, impact, impact.upper, places)
+        return _hit(moving, impact, impact.upper, posed)
     if impact.reason is None:
-        return _free(moving, impact, places)
+        return _free(moving, impact, posed)
     # An overlap of boxes, hulls or parts instead of the bodies is no proof.
     hit = None if pair.may("exact") else possible_overlap(moving, impact.reached)
     if hit is None:
         return swept(impact, moving.tolerance, moving.steps)
     impact = replace(impact, upper=hit, reason=None)
-    shown = {"at": places(hit), "proven": False}
+    shown = {"at": posed(hit).at, "proven": False}
     return swept(impact, moving.tolerance, moving.steps, "penetrating", **shown)
 
 
@@ -76,7 +95,7 @@ def swept(
     )
 
 
-def relation_apart(
+def _relation_apart(
     impact: Impact, worst: Worst | None, tolerance: float, clearance: float | None
 ) -> SweptRelation:
     """The relation of bodies that stay apart, or within the touch band, during the whole motion.
@@ -87,46 +106,50 @@ def relation_apart(
     return "near" if upper < (clearance or 0.0) else "separated"
 
 
-def worst_pose(
-    worst: Worst | None, places: Places, joints: Joints | None = None
-) -> WorstPose | None:
-    """Return the worst pose as a report states it. joints: there, on a path of joints."""
+def _worst_pose(worst: Worst | None, poses: Poses) -> WorstPose | None:
+    """Return the worst pose as a report states it."""
     if worst is None:
         return None
-    at = places(worst.time)
+    posed = poses(worst.time)
     if worst.upper < 0.0:
-        return WorstPose(worst.time, at, joints, depth=(-worst.upper, -worst.lower))
-    return WorstPose(worst.time, at, joints, distance=(max(worst.lower, 0.0), worst.upper))
+        depth = -worst.upper, -worst.lower
+        return WorstPose(worst.time, posed.at, posed.joints, depth=depth)
+    distance = max(worst.lower, 0.0), worst.upper
+    return WorstPose(worst.time, posed.at, posed.joints, distance=distance)
 
 
 def _gaps(pair: MovingPair) -> tuple[float, ...]:
     """The lengths that decide the relation of bodies that stay apart. If a body has holes, only
     hulls that have no common point prove that no fill is entered."""
-    return () if pair.holed else (pair.tolerance, pair.pair.request.clearance or 0.0)
+    return () if holed(pair.pair) else (pair.tolerance, pair.pair.request.clearance or 0.0)
 
 
-def _hit(pair: MovingPair, impact: Impact, upper: float, places: Places) -> Sweep:
+def _hit(pair: MovingPair, impact: Impact, upper: float, poses: Poses) -> Sweep:
     worst, request = None, pair.pair.request
     if request.wants("depth") or request.max_thickness is not None:
         worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
+    posed = poses(upper)
     return swept(
         impact,
         pair.tolerance,
         pair.steps,
         "penetrating",
-        at=places(upper),
+        at=posed.at,
+        joints=posed.joints,
+        poses=posed.poses,
         point=impact_point(pair.placed(upper), pair.path_length(impact.lower, upper)),
-        worst=worst_pose(worst, places),
+        worst=_worst_pose(worst, poses),
     )
 
 
-def _free(pair: MovingPair, impact: Impact, places: Places) -> Sweep:
+def _free(pair: MovingPair, impact: Impact, poses: Poses) -> Sweep:
     worst, clearance = _nearest(pair, impact), pair.pair.request.clearance
-    relation = relation_apart(impact, worst, pair.tolerance, clearance)
-    if pair.holed and not pair.hulls_apart:
-        unfilled = f"the fills of the holes of {' and '.join(pair.holed)} were not swept"
+    relation = _relation_apart(impact, worst, pair.tolerance, clearance)
+    holes = holed(pair.pair)
+    if holes and not pair.hulls_apart:
+        unfilled = f"the fills of the holes of {' and '.join(holes)} were not swept"
         impact = replace(impact, reason=unfilled)
-    if worst is not None and pair.holed and clearance:
+    if worst is not None and holes and clearance:
         # The fill of a hole may be nearer than the surfaces, but not nearer than the hulls.
         hulls = least_hull_distance(pair, worst.upper, clearance)
         worst = replace(worst, lower=min(worst.lower, hulls))
@@ -135,7 +158,7 @@ def _free(pair: MovingPair, impact: Impact, places: Places) -> Sweep:
         pair.tolerance,
         pair.steps,
         relation,
-        worst=worst_pose(worst, places),
+        worst=_worst_pose(worst, poses),
         distance_at_least=impact.gap if worst is None and impact.gap > 0.0 else None,
     )
 

@@ -71,10 +71,10 @@ def _velocity(pair: MovingPair, t: float) -> Vector | None:
     """Of A relative to B, per unit of t; None: a body turns, or is curved."""
     if pair.pair.curved:
         return None
-    a, b = pair.track_a.piece_at(t), pair.track_b.piece_at(t)
-    if a.degrees or b.degrees:
+    a, b = pair.velocities(t)
+    if a is None or b is None:
         return None
-    x, y, z = (p - q for p, q in zip(a.velocity, b.velocity, strict=True))
+    x, y, z = (p - q for p, q in zip(a, b, strict=True))
     return x, y, z
 
 

@@ -11,6 +11,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import ClassVar
 
 from msgspec import Struct
 
@@ -118,6 +119,7 @@ class Track(Struct, frozen=True):
     """The pieces of a motion, without gaps from t = 0 to t = 1."""
 
     pieces: tuple[Piece, ...]
+    framed: ClassVar[bool] = False  # the world is the frame of its rates
 
     @property
     def moves(self) -> bool:
@@ -136,8 +138,25 @@ class Track(Struct, frozen=True):
         """M(t)."""
         return self.piece_at(t).pose_at(t)
 
+    def placement(self, t: float, transform: Transform | None) -> Transform:
+        """The placement at t of a body with this one before the motion."""
+        return compose(self.pose_at(t), transform or IDENTITY)
+
+    def fastest(self, t: float, bounds: Box) -> float:
+        """An upper bound of the speed of any point of the body in the piece of t."""
+        return self.piece_at(t).fastest(bounds)
+
+    def slack(self, t: float, bounds: Box) -> float:
+        """The largest effect of rounding on the rate at which a gap closes."""
+        return self.piece_at(t).slack(bounds)
+
+    def velocity(self, t: float) -> Vector | None:
+        """Of all points, in the piece of t; None: the body turns."""
+        piece = self.piece_at(t)
+        return None if piece.degrees else piece.velocity
+
     def moving_at(
-        self, t: float, offset: Vector = ORIGIN, frame: Transform = IDENTITY
+        self, t: float, _: float = 0.0, offset: Vector = ORIGIN, frame: Transform = IDENTITY
     ) -> core.Moving:
         """The place and the motion of the body at t, moved by `offset`. frame: places it before the
         motion."""

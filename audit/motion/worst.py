@@ -11,7 +11,7 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Callable, Sequence
-from itertools import pairwise
+from itertools import chain
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -98,12 +98,12 @@ def _least(
         return lower, start, end
 
     def so_far() -> Worst:
-        return replace(best, lower=min(queue[0][0], best.lower))
+        return replace(best, lower=min(queue[0][0], best.lower, pair.free_gap))
 
     try:
-        for end in pair.times:
+        for end in sorted(set(chain.from_iterable(pair.stretches))):
             look(end, end)
-        for start, end in pairwise(pair.times):
+        for start, end in pair.stretches:
             heapq.heappush(queue, look(start, end))
     except Unanswerable:
         return None

@@ -80,7 +80,7 @@ def motion(joint: Joint, values: Numbers) -> Numbers:
         case "planar":
             x, y, angle = values
             turn = about(joint.axis, _cos_sin(angle))
-            shift = [x * u + y * v for u, v in zip(*_plane(joint.axis), strict=True)]
+            shift = [x * u + y * v for u, v in zip(*plane_axes(joint.axis), strict=True)]
         case "floating":
             roll, pitch, yaw = map(_cos_sin, values[3:])
             turn, shift = about_fixed_axes(roll, pitch, yaw), [*values[:3]]
@@ -108,7 +108,7 @@ def _cos_sin(radians: Numbers) -> tuple[Any, Any]:
     return np.array([*map(math.cos, turns)]), np.array([*map(math.sin, turns)])
 
 
-def _plane(normal: Vector) -> tuple[Vector, Vector]:
+def plane_axes(normal: Vector) -> tuple[Vector, Vector]:
     """x and y of the joint's frame after the shortest rotation from z to the normal.
 
     If the normal is -z, this is half a turn about x. Moller, Hughes, "Efficiently Building a Matrix

@@ -673,7 +673,14 @@ Rows = tuple[Point, Point, Point]
 
 class Moving:
     def __init__(
-        self, rotation: Rows, translation: Point, centre: Point, velocity: Point, spin: Point
+        self,
+        rotation: Rows,
+        translation: Point,
+        centre: Point,
+        velocity: Point,
+        spin: Point,
+        speed: float = 0.0,
+        acceleration: float = 0.0,
     ) -> None: ...
 
 class MotionAnswer:

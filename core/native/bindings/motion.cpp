@@ -21,17 +21,21 @@ Vec3 finite(const Triple& t) {
   return v;
 }
 
+void require_bound(double x) {
+  if (!(std::isfinite(x) && x >= 0)) throw std::invalid_argument("a bound of a motion is negative or not finite");
+}
+
 void construct_moving(Moving* self, const std::array<Triple, 3>& rotation, const Triple& translation,
-                      const Triple& centre, const Triple& velocity, const Triple& spin) {
+                      const Triple& centre, const Triple& velocity, const Triple& spin, double speed,
+                      double acceleration) {
   const Mat3 rows{{finite(rotation[0]), finite(rotation[1]), finite(rotation[2])}};
-  new (self) Moving{{rows, finite(translation)}, finite(centre), finite(velocity), finite(spin)};
+  for (const double x : {speed, acceleration}) require_bound(x);
+  new (self) Moving{{rows, finite(translation)}, finite(centre), finite(velocity), finite(spin), speed, acceleration};
 }
 
 MotionAnswer ask(const MovingBody& a, const Moving& moving_a, const MovingBody& b, const Moving& moving_b,
                  const MotionQuestion& question, double pad, double slack, std::uint64_t work) {
-  for (const double x : {question.extent(), pad, slack}) {
-    if (!(std::isfinite(x) && x >= 0)) throw std::invalid_argument("a bound of a motion is negative or not finite");
-  }
+  for (const double x : {question.extent(), pad, slack}) require_bound(x);
   return ask_motion(a, moving_a, b, moving_b, question, {pad, slack}, work);
 }
 
@@ -42,8 +46,9 @@ std::int64_t index_or_minus_one(std::uint32_t triangle) { return triangle == kNo
 void bind_motion(nb::module_& m) {
   nb::class_<Moving>(m, "Moving", R"(A moving rigid body, world frame: p_world = rotation * p + translation now, rotation as three rows. It turns about the
 axis through `centre` with `spin`, a unit axis times radians per unit of time, while the centre moves with `velocity`.
-ValueError on a number that is not finite.)")
-      .def("__init__", &construct_moving, "rotation"_a, "translation"_a, "centre"_a, "velocity"_a, "spin"_a);
+speed, acceleration: 0 if it goes on like that; else bounds for all its points as long as a query asks. ValueError on a number that is not finite.)")
+      .def("__init__", &construct_moving, "rotation"_a, "translation"_a, "centre"_a, "velocity"_a, "spin"_a,
+           "speed"_a = 0.0, "acceleration"_a = 0.0);
   nb::class_<MotionAnswer>(m, "MotionAnswer", R"(value: a proven lower bound of the requested time or gap. upper: of the signed distance now, without rounding;
 infinite if there is no obstacle. triangle_a, triangle_b: the nearest obstacle; -1: none.)")
       .def_ro("value", &MotionAnswer::value)

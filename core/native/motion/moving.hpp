@@ -4,7 +4,9 @@
 // the angular velocity w about an axis through `centre`, which itself moves with v, has
 //   n . (p(s) - p(0)) <= s (n . v + r . (n x w)) + s^2 / 2 |n x w| |w x r|        (Taylor)
 //   n . (p(s) - p(0)) <= s (n . v + |n x w| |w x r| / |w|)                         (r turns at a fixed radius)
-// for every s >= 0: the second derivative of the turning part is |n x w| |w x r| at most. The motion bound of
+// for every s >= 0: the second derivative of the turning part is |n x w| |w x r| at most. A body that several joints
+// carry moves so only at first; bounds of the speed and the acceleration of its points then stand in for the others.
+// The motion bound of
 // Brian Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems" (1996), 2.3, taken along the axis as by Xinyu
 // Zhang, Minkyoung Lee, Young J. Kim, "Interactive Continuous Collision Detection for Non-convex Polyhedra" (2006).
 // Bodies that slide past each other therefore keep large steps.
@@ -19,10 +21,13 @@ struct Moving {
   Vec3 centre;    // world, on the axis it turns about
   Vec3 velocity;  // of the centre, per unit of time
   Vec3 spin;      // unit axis times radians per unit of time, right-handed
+  // Bounds for all points, if velocity and spin change; else 0.
+  double speed = 0, acceleration = 0;
 
   Vec3 velocity_at(Vec3 world) const { return velocity + cross(spin, world - centre); }
-  bool stands() const { return velocity == Vec3{} && spin == Vec3{}; }
-  bool only_turns() const { return velocity == Vec3{} && !(spin == Vec3{}); }
+  bool is_steady() const { return speed == 0; }
+  bool stands() const { return is_steady() && velocity == Vec3{} && spin == Vec3{}; }
+  bool only_turns() const { return is_steady() && velocity == Vec3{} && !(spin == Vec3{}); }
 };
 
 // The time until which the point p of a body that only turns stays below a height along the unit direction n, up to
@@ -123,17 +128,19 @@ template <class Part>
 void add_approach(const Part& part, const Moving& moving, Vec3 n, bool towards, Approach& approach) {
   const double sign = towards ? 1 : -1, drift = sign * dot(n, moving.velocity);
   approach.ahead.rate += drift;
-  approach.ahead.steady += drift;
+  approach.ahead.steady += moving.is_steady() ? drift : moving.speed;
   approach.back.rate -= drift;
-  approach.back.steady -= drift;
+  approach.back.steady += moving.is_steady() ? -drift : moving.speed;
+  approach.bend += moving.acceleration;
   if (moving.spin == Vec3{}) return;
   const Vec3 w = cross(n, moving.spin);
-  const double offset = dot(w, moving.centre), across = norm(w), turning = part.turning(moving);
+  const double offset = dot(w, moving.centre);
   const Extent extent = part.along(w);
   const double low = extent.low - offset, high = extent.high - offset;
   approach.ahead.rate += towards ? high : -low;
   approach.back.rate += towards ? -low : high;
-  const double steady = across * turning / norm(moving.spin);
+  if (!moving.is_steady()) return;
+  const double across = norm(w), turning = part.turning(moving), steady = across * turning / norm(moving.spin);
   approach.ahead.steady += steady;
   approach.back.steady += steady;
   approach.bend += across * turning;

@@ -108,6 +108,37 @@ void promises_hold() {
   CHECK(useful > moments / 4);
 }
 
+// A body on an arm with two joints, each of which turns: its velocities at first, and bounds of what they become.
+void two_joints_are_bounded() {
+  const Surface a = make_surface(box({-1, -0.5, -0.2}, {1, 0.5, 0.2}), true), b = make_surface(uv_sphere(3), true);
+  int stopped = 0;
+  for (int i = 0; i < testing::rounds(100); ++i) {
+    // The elbow is at `fore` from the shoulder, which is the origin; the body's own origin is at `tip` from the elbow.
+    const Vec3 shoulder = random_vector(2), elbow = random_vector(2), fore = random_vector(2), tip = random_vector(2);
+    const auto pose = [&](double time) {
+      const Pose upper{rotation_by(shoulder * time), {}}, lower{rotation_by(elbow * time), {}};
+      return [=](Vec3 v) { return upper * (fore + lower * (tip + v)); };
+    };
+    const double reach = norm(tip) + std::sqrt(1.29), own = norm(elbow) * reach, whole = norm(shoulder) * (norm(fore) + reach);
+    const Moving ma{{{}, fore + tip}, fore, cross(shoulder, fore), shoulder + elbow, own + whole,
+                    norm(elbow) * own + norm(shoulder) * (whole + 2 * own)};
+    const Moving mb{{{}, random_vector(5)}, {}, {}, {}};
+    const auto at_time = [&](double time) {
+      const auto placed = pose(time);
+      std::vector<Vec3> points;
+      for (const Vec3& v : a.mesh.vertices) points.push_back(placed(v));
+      return mesh_distance(make_surface({points, a.mesh.triangles}, false), at(b, mb, 0), INFINITY).distance;
+    };
+    if (at_time(0) == 0) continue;
+    const double time = ask(a, ma, b, mb, MotionQuestion::time(0, 1), {}).value, window = uniform(0, 0.2);
+    const double gap = ask(a, ma, b, mb, MotionQuestion::gap(window), {}).value;
+    stopped += time < 1;
+    for (int k = 0; k < 20; ++k) CHECK(at_time(time * k / 20) > 0);
+    for (int k = -10; k <= 10; ++k) CHECK(at_time(window * k / 10) >= gap - kRounding);
+  }
+  CHECK(stopped > testing::rounds(20));
+}
+
 void cut_short_is_less() {
   const Surface a = make_surface(uv_sphere(12), true);
   const Moving here{}, there{{{}, {5, 0.1, 0.2}}, {}, {-1, 0, 0}, {}};
@@ -281,4 +312,5 @@ UNIT(motion_search) {
   a_flush_hinge_does_not_hold_a_door();
   shapes_keep_their_promises();
   a_shape_and_a_surface_keep_theirs();
+  two_joints_are_bounded();
 }

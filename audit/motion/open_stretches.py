@@ -1,0 +1,109 @@
+"""When bodies of robots on a path of joints may meet, by bisection of t.
+
+In the middle of an interval the core proves two bodies apart by more than they travel until its
+ends. Then they are apart in all of the interval. Else the interval is halved, until they travel
+little: a sweep goes through it. Schwarzer, Saha, Latombe (2005), see `joint_travel.py`. All pairs
+are asked at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from math import inf
+
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from satcheck.audit.motion.joint_travel import Moments, Numbers, Travel
+from satcheck.audit.motion.moving_pair import Stretch
+from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
+
+Flags = NDArray[np.bool_]
+
+# Poses that the core takes at a time.
+TOGETHER = 4096
+# The most intervals of one pair, and so many for each piece of the path.
+INTERVALS = 16
+INTERVALS_A_PIECE = 8
+
+
+class OpenStretches(Struct, frozen=True):
+    """The stretches of t in which a pair is not proven apart, and how many intervals were asked."""
+
+    stretches: tuple[Stretch, ...]
+    steps: int
+
+
+class _Intervals(Struct, frozen=True):
+    """active: which pairs are asked in them, shape (intervals, pairs)."""
+
+    start: Numbers
+    end: Numbers
+    active: Flags
+
+    def at(self, rows: slice) -> _Intervals:
+        return _Intervals(self.start[rows], self.end[rows], self.active[rows])
+
+    def halved(self, active: Flags) -> _Intervals:
+        """Both halves of those with an active pair."""
+        rows = active.any(axis=1)
+        start, end = self.start[rows], self.end[rows]
+        middle = 0.5 * (start + end)
+        starts, ends = np.stack((start, middle)), np.stack((middle, end))
+        return _Intervals(starts.T.ravel(), ends.T.ravel(), np.repeat(active[rows], 2, axis=0))
+
+
+def open_stretches(
+    travel: Travel, pairs: PosedPairs, tolerances: Sequence[float], near: Sequence[float]
+) -> list[OpenStretches]:
+    """Return of each pair when it is not proven farther apart than its tolerance and its clearance.
+    near: the travel at which an interval of a pair is not halved."""
+    times = travel.path.times
+    most = INTERVALS + INTERVALS_A_PIECE * (len(times) - 1)
+    found: list[list[Stretch]] = [[] for _ in pairs.pairs]
+    steps, first_hit = np.zeros(len(found), int), np.full(len(found), inf)
+    waiting = [_Intervals(times[:-1], times[1:], np.ones((len(times) - 1, len(found)), bool))]
+    while waiting:
+        part = waiting.pop()
+        if len(part.start) > TOGETHER:
+            waiting += (part.at(slice(TOGETHER, None)), part.at(slice(TOGETHER)))
+            continue
+        steps += part.active.sum(axis=0)
+        at = travel.at(0.5 * (part.start + part.end))
+        travelled = _travelled(travel, pairs, at, part)
+        codes = pairs.sift(at.matrices, travelled + tolerances)
+        hits = np.where(codes == DEEP, part.start[:, None], inf)
+        first_hit = np.minimum(first_hit, hits.min(axis=0))
+        unproven = part.active & (codes != APART)
+        worth = (travelled > near) & (steps < most) & (part.start[:, None] <= first_hit)
+        for row, k in np.argwhere(unproven & ~worth).tolist():
+            found[k].append((float(part.start[row]), float(part.end[row])))
+        if (unproven & worth).any():
+            waiting.append(part.halved(unproven & worth))
+    ends = set(times.tolist())
+    return [
+        OpenStretches(_joined(stretches, ends), asked_of)
+        for stretches, asked_of in zip(found, steps.tolist(), strict=True)
+    ]
+
+
+def _travelled(travel: Travel, pairs: PosedPairs, at: Moments, part: _Intervals) -> Numbers:
+    """Return how far each pair travels from the middle of each interval to its ends, NaN where it
+    is not asked."""
+    travelled, half = np.full(part.active.shape, np.nan), 0.5 * (part.end - part.start)
+    for k in np.flatnonzero(part.active.any(axis=0)).tolist():
+        own = travel.between(at, half, *pairs.pairs[k].places)
+        travelled[:, k] = np.where(part.active[:, k], own, np.nan)
+    return travelled
+
+
+def _joined(stretches: list[Stretch], times: Collection[float]) -> tuple[Stretch, ...]:
+    """Joins those that follow each other in the same piece of the path."""
+    joined: list[Stretch] = []
+    for start, end in sorted(stretches):
+        if joined and joined[-1][1] == start and start not in times:
+            joined[-1] = joined[-1][0], end
+        else:
+            joined.append((start, end))
+    return tuple(joined)
