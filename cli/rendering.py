@@ -145,13 +145,14 @@ def files_line(
     targets: Iterable[Target],
     pose: int | None = None,
 ) -> str:
-    """`Report: a.json. Image of box and lid: a.png. Model: a.glb`; empty without a file. pose: the
-    drawn one of several; None: the worst."""
-    return ". ".join(
-        f"{_what(target.form, report, scene, pose)}: {target.output}"
-        for target in targets
-        if target.output is not None
-    )
+    """Return `Report: a.json, a.html. Image of box and lid: a.png. Model: a.glb`; nothing without a
+    file. pose: the drawn one of several; None: the worst."""
+    files: dict[str, list[str]] = {}
+    for target in targets:
+        if target.output is not None:
+            what = _what(target.form, report, scene, pose)
+            files.setdefault(what, []).append(str(target.output))
+    return ". ".join(f"{what}: {', '.join(names)}" for what, names in files.items())
 
 
 def _what(form: str, report: Report | SamplesReport, scene: Scene, pose: int | None) -> str:

@@ -6,6 +6,7 @@ The commands are made from the words of this call, so that they work when they a
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -39,6 +40,7 @@ MOST_FILES = 8
 # So many bad paths get advice; the others are errors alone.
 MOST_PATHS = 3
 _PATTERN = frozenset("*?[")
+_STORED = re.compile(rb'\s*{\s*"schema": ?"satcheck\.(report|assets|samples|result)/')
 # Options about the document, not about the answer, and about many assets.
 _DELIVERY = frozenset(
     (
@@ -150,6 +152,15 @@ def about_paths(paths: Sequence[str]) -> list[Advice]:
         purpose = f"{twice} is given twice, so its bodies coincide. To check its pieces"
         advice.append(Advice(purpose, pieces))
     return advice
+
+
+def about_stored(paths: Sequence[str]) -> Advice | None:
+    """Of a stored report among the inputs."""
+    for path in filter(is_file, paths):
+        with Path(path).open("rb") as file:
+            if _STORED.match(file.read(100)):
+                return Advice(f"{path} is a stored report. To show it", _line(["view", path]))
+    return None
 
 
 def _split_length(bad: Sequence[str]) -> Advice | None:

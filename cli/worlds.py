@@ -28,6 +28,7 @@ from satcheck.cli.formats import worst_page
 from satcheck.cli.formats.assets import (
     AssetReports,
     Overview,
+    next_step,
     overview,
     summary_line,
     tell_issues,
@@ -225,7 +226,7 @@ def tell_assets(seen: Overview, to: Delivery) -> None:
     if files or to.forms != {"table"}:
         tell_issues(seen)
     if files and seen.total:
-        talk(f"{summary_line(seen)} Report: {', '.join(files)}")
+        talk(" ".join([summary_line(seen), *next_step(seen), f"Report: {', '.join(files)}"]))
 
 
 def asset_names(inputs: Inputs) -> Assets:

@@ -89,7 +89,7 @@ class _DefaultCommand(Command):
             formatter.write_dl(
                 [
                     ("0", "everything was checked, and no pair fails"),
-                    ("1", "a pair overlaps more than rules allow, or is closer than its clearance"),
+                    ("1", "a pair overlaps more than is allowed, or is closer than its clearance"),
                     ("2", "wrong usage, an unreadable input, or an internal error"),
                     ("3", "no pair is known to fail, but not everything could be checked"),
                     ("130", "interrupted"),
@@ -251,9 +251,6 @@ def command(
 
         for advice in about_assets(inputs.paths, scene):
             talk(str(advice))
-    failed = any(issue.severity == "error" for issue in scene.issues)
-    if failed and len(scene.bodies) < 2 and to.forms == {"table"}:
-        return exit_codes.ERROR  # every pair would be an empty row, and the error is told
     scene, poses = _placed(scene, inputs)
     if poses is None and pictures:
         # Where the surfaces cross, in checks that can say so.
@@ -273,7 +270,7 @@ def command(
     if config is not None:
         result = replace(result, config=config)
     deliver(document, result, scene, to)
-    return exit_codes.for_verdict(result.summary.verdict, result.issues, exit_zero=exit_zero)
+    return exit_codes.for_report(result, exit_zero=exit_zero)
 
 
 def _collect_garbage(scene: Scene) -> None:

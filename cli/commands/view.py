@@ -232,8 +232,7 @@ class _View(NamedTuple):
             talk(files)
         if len(pictures) == len(self.to.targets):
             return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
-        verdict = stated.summary.verdict
-        return exit_codes.for_verdict(verdict, stated.issues, exit_zero=self.to.exit_zero)
+        return exit_codes.for_report(stated, exit_zero=self.to.exit_zero)
 
     def _rendered(
         self, form: str, stated: Report | SamplesReport, scene: Scene, page: Page

@@ -112,7 +112,8 @@ def render(seen: Overview, page: Page) -> str:
     """Return the whole text, final newline included."""
     root = common_root([asset.file for asset in seen.shown])
     said = hidden(seen.listed - len(seen.shown), "asset") + all_begin(root)
-    said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen), *_steps_of_folders(seen)]
+    said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen)]
+    said += [*next_step(seen), *_steps_of_folders(seen)]
     lines = _table(seen.shown, root, page) if seen.shown else []
     return joined([*lines, *fitted_each(said, page)], page)
 
@@ -124,7 +125,7 @@ def tell_issues(seen: Overview) -> None:
 
 
 def summary_line(seen: Overview) -> str:
-    """`FAIL: 39 assets: 2 fail (a.glb, b.glb), 37 pass. Next: satcheck a.glb lists its pairs.`"""
+    """Return `FAIL: 39 assets: 2 fail (a.glb, b.glb), 37 pass.`"""
     return " ".join(_summary(seen))
 
 
@@ -133,14 +134,17 @@ def _summary(seen: Overview) -> list[str]:
     line = line if len(line) <= _MOST else _counts(seen, names=False)
     unchecked = counted(seen.unchecked, "passing asset")
     ruled = [f"No pair of {unchecked} was checked: rules allow them all."] if seen.unchecked else []
-    return [line, *ruled, *seen.beside.lines(), *_next_step(seen)]
+    return [line, *ruled, *seen.beside.lines()]
 
 
 def _counts(seen: Overview, *, names: bool) -> str:
-    counts, total = seen.counts, counted(seen.total, "asset")
+    counts, total = seen.counts.copy(), counted(seen.total, "asset")
+    counts["pass"] -= seen.folders
     nothing = "of one body each: nothing to compare"
+    accepted = [f"{counted(seen.accepted, 'issue')} accepted"] if seen.accepted else []
     if seen.verdict == "pass" and seen.lone == seen.total:
-        return f"PASS: {total}{f' ({nothing})' if seen.total else ''}."
+        said = f"{total} ({nothing})" if seen.total else total
+        return f"PASS: {', '.join([said, *accepted])}."
     words: dict[AssetVerdict, str] = {
         "error": "have errors" if counts["error"] > 1 else "has errors",
         "fail": "fail" if counts["fail"] > 1 else "fails",
@@ -155,10 +159,11 @@ def _counts(seen: Overview, *, names: bool) -> str:
     if seen.lone:
         some = "" if seen.lone == counts["pass"] else f"{seen.lone:,} "
         parts[-1] += f" ({some}{nothing})"
+    parts += accepted
     return f"{_WORDS[seen.verdict]}: {': '.join([total, *filter(None, [', '.join(parts)])])}."
 
 
-def _next_step(seen: Overview) -> list[str]:
+def next_step(seen: Overview) -> list[str]:
     failing = seen.named.get("fail", [])[:1]
     unsure = [] if failing else seen.named.get("incomplete", [])[:1]
     unsure = [file for file in unsure if not is_folder(file)]  # of files that no check reads
@@ -237,15 +242,18 @@ def _listed(asset: Asset) -> list[Problem]:
 class Overview(Struct):
     """counts: of each verdict. named: the first assets with each verdict, one more than are shown.
     unchecked: the number of passing assets whose pairs are all allowed; lone: of those with one
-    body or none. config: lines about config
-    files. shown: assets for a table, the worst first. issues: about what all assets share; least:
-    the verdict that these allow at best.
+    body or none; folders: of those that stand for accepted files which no reader knows, and are no
+    assets. accepted: the number of accepted issues. config: lines about config files. shown: assets
+    for a table, the worst first. issues: about what all assets share; least: the verdict that these
+    allow at best.
     """
 
     counts: Counter[AssetVerdict] = field(default_factory=Counter)
     named: dict[AssetVerdict, list[str]] = field(default_factory=dict)
     unchecked: int = 0
     lone: int = 0
+    folders: int = 0
+    accepted: int = 0
     config: dict[str, None] = field(default_factory=dict)
     beside: BesideBaseline = field(default_factory=BesideBaseline)
     shown: list[Asset] = field(default_factory=list)
@@ -278,11 +286,11 @@ class Overview(Struct):
     @property
     def listed(self) -> int:
         """The number of assets for a table."""
-        return self.total - self.counts["pass"]
+        return self.counts.total() - self.counts["pass"]
 
     @property
     def total(self) -> int:
-        return self.counts.total()
+        return self.counts.total() - self.folders
 
     def noting(self, assets: Iterable[Asset]) -> Iterator[Asset]:
         for asset in assets:
@@ -294,11 +302,19 @@ class Overview(Struct):
         named = self.named.setdefault(asset.verdict, [])
         if len(named) <= NAMED:
             named.append(asset.file)
-        codes = {issue.code for issue in asset.report.issues} if asset.verdict == "pass" else set()
-        self.unchecked += NOTHING_TO_CHECK in codes
-        self.lone += asset.verdict == "pass" and len(asset.report.bodies) < 2
+        self.accepted += sum(issue.state == "accepted" for issue in asset.report.issues)
+        if asset.verdict == "pass":
+            is_folder = any(_is_of_folder(issue, asset) for issue in asset.report.issues)
+            self.folders += is_folder
+            self.unchecked += any(i.code == NOTHING_TO_CHECK for i in asset.report.issues)
+            self.lone += not is_folder and len(asset.report.bodies) < 2
         self.config |= dict.fromkeys(config_lines([asset.report]))
         self.beside.note(asset.report)
+
+
+def _is_of_folder(issue: Issue, asset: Asset) -> bool:
+    """Return whether an issue is about a file that no reader knows, in the folder of this name."""
+    return issue.code == "unread-file" and issue.file != asset.file and not asset.report.bodies
 
 
 def overview(
