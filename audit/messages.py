@@ -15,8 +15,8 @@ from satcheck.audit.words import (
     about,
     bounds,
     counted,
+    figure,
     in_motion,
-    interval,
     is_hit,
     is_unusable,
     joint_values,
@@ -299,11 +299,7 @@ def _is_unsure(finding: Finding, report: Report) -> bool:
 
 def _figures(finding: Finding, unit: str | None) -> list[str]:
     known = {"thickness {}": finding.thickness_bounds, "{} to pull apart": finding.depth_bounds}
-    said = [
-        words.format(with_unit(interval(proven, bounded="at most "), unit))
-        for words, proven in known.items()
-        if proven is not None
-    ]
+    said = [words.format(figure(proven, unit)) for words, proven in known.items() if proven]
     if finding.volume is not None:
         said.append(f"volume {with_unit(number(finding.volume), unit and f'{unit}^3')}")
     return said

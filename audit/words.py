@@ -131,6 +131,11 @@ def interval(proven: Interval | None, *, bounded: str = "<= ") -> str:
     return bounded + at_most(high) if low <= NEGLIGIBLE * high < high else bounds(low, high)
 
 
+def figure(proven: Interval | None, unit: str | None) -> str:
+    """Return `0.504 ±0.003 mm`, `at most 0.3 mm`."""
+    return with_unit(interval(proven, bounded="at most "), unit)
+
+
 def is_unusable(body: BodyReport) -> bool:
     """Whether the body could not be read or placed. An error issue says why."""
     return body.triangles is None
