@@ -15,7 +15,7 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.manifest import read_manifest
-from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults, least_of
+from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults
 from satcheck.audit.words import is_listed
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -34,7 +34,7 @@ from satcheck.cli.rendering import (
 )
 from satcheck.cli.stated_scene import read_stored, stated_scene
 from satcheck.cli.worlds import Drawing, deliver_assets, tell_assets
-from satcheck.report.assets import Asset, AssetsReport, AssetVerdict
+from satcheck.report.assets import Asset, AssetsReport
 from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
@@ -140,13 +140,13 @@ def command(
     if any(path.suffix.lower() in ENDINGS for path in reports):
         expected = () if manifest is None else read_manifest(manifest)
         with StoredResults(reports, expected) as results:
-            return view.assets(results, results.issues, results.least, asset)
+            return view.assets(results, results.issues, asset)
     if len(reports) > 1 or manifest is not None:
         raise click.UsageError("several files are results of satcheck batch, which end in .jsonl")
     stored = read_stored(reports[0])
     if isinstance(stored, AssetsReport):
         each = [Stored((asset.file,), (), asset) for asset in stored.assets]
-        return view.assets(each, stored.issues, least_of(stored.issues), asset)
+        return view.assets(each, stored.issues, asset)
     if asset is not None:
         raise click.UsageError(f"--asset: {reports[0]} is the report of one check")
     if folder is not None:
@@ -170,7 +170,6 @@ class _View(NamedTuple):
         self,
         stored: Sequence[Stored] | StoredResults,
         issues: tuple[Issue, ...],
-        least: AssetVerdict,
         name: str | None,
     ) -> int:
         """Show many assets, or one of them: the named one, or in 3-D the worst."""
@@ -186,7 +185,7 @@ class _View(NamedTuple):
             return code
         to = replace(self.to, targets=others)
         found = (each.asset for each in stored)
-        seen = overview(found, issues, least=least, top=self.drawing.top)
+        seen = overview(found, issues, top=self.drawing.top)
         deliver_assets(self.document, seen, stored, to, self.drawing, only_shown=to.top is not None)
         tell_assets(seen, to)
         return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)

@@ -65,6 +65,13 @@ _WORDS: dict[AssetVerdict, str] = {
     "incomplete": "INCOMPLETE",
     "pass": "PASS",
 }
+_NOTHING_COMPARED = Issue(
+    NOTHING_TO_CHECK,
+    "warning",
+    None,
+    None,
+    "no pair was checked: each file is a world of its own; --merge puts them into one",
+)
 # Letters of the summary with names: two rows of 80.
 _MOST = 160
 # So many are named in the summary.
@@ -243,9 +250,9 @@ class Overview(Struct):
     """counts: of each verdict. named: the first assets with each verdict, one more than are shown.
     unchecked: the number of passing assets whose pairs are all allowed; lone: of those with one
     body or none; folders: of those that stand for accepted files which no reader knows, and are no
-    assets. accepted: the number of accepted issues. config: lines about config files. shown: assets
-    for a table, the worst first. issues: about what all assets share; least: the verdict that these
-    allow at best.
+    assets. compared: the number of assets with a question. accepted: the number of accepted issues.
+    config: lines about config files. shown: assets for a table, the worst first. issues: about what
+    all assets share.
     """
 
     counts: Counter[AssetVerdict] = field(default_factory=Counter)
@@ -253,25 +260,22 @@ class Overview(Struct):
     unchecked: int = 0
     lone: int = 0
     folders: int = 0
+    compared: int = 0
     accepted: int = 0
     config: dict[str, None] = field(default_factory=dict)
     beside: BesideBaseline = field(default_factory=BesideBaseline)
     shown: list[Asset] = field(default_factory=list)
     issues: tuple[Issue, ...] = ()
-    least: AssetVerdict = "pass"
 
     @property
     def verdicts(self) -> Counter[AssetVerdict]:
         """Those of the assets, and the one that the issues allow at best."""
-        return self.counts + Counter([self.least])
+        return self.counts + Counter([least_of(self.issues)])
 
     @property
     def verdict(self) -> AssetVerdict:
         """The worst."""
         return worst_verdict(self.verdicts)
-
-    def has(self, verdict: AssetVerdict) -> bool:
-        return bool(self.counts[verdict]) or verdict == self.least
 
     def report(self) -> AssetsReport:
         """Without the assets."""
@@ -302,6 +306,7 @@ class Overview(Struct):
         named = self.named.setdefault(asset.verdict, [])
         if len(named) <= NAMED:
             named.append(asset.file)
+        self.compared += bool(asset.report.summary.pairs.asked or asset.report.answers)
         self.accepted += sum(issue.state == "accepted" for issue in asset.report.issues)
         if asset.verdict == "pass":
             is_folder = any(_is_of_folder(issue, asset) for issue in asset.report.issues)
@@ -321,13 +326,16 @@ def overview(
     assets: Iterable[Asset],
     issues: tuple[Issue, ...] = (),
     *,
-    least: AssetVerdict = "pass",
     top: int | None = None,
+    compares: bool = False,
 ) -> Overview:
-    """Return what is known of the assets. top: how many are shown at most, the worst first."""
-    made = Overview(issues=issues, least=least)
+    """Return what is known of the assets. issues: about all of them. top: how many are shown at
+    most, the worst first. compares: without a pair nothing passes."""
+    made = Overview()
     worst = worst_of(made.noting(assets), ROWS if top is None else top, asset_rank)
     made.shown = [each for each in worst if each.verdict != "pass"]
+    empty = (_NOTHING_COMPARED,) if compares and not made.compared else ()
+    made.issues = (*empty, *issues)
     return made
 
 
