@@ -202,6 +202,16 @@ def _kinds(worst: Iterable[Finding], report: Report) -> str:
     return ", ".join(said)
 
 
+def wrong_pairs(report: Report) -> str:
+    """Return `6 of 21 pairs overlap, 1 is undecided`, as a title; the message where no pair is at
+    fault."""
+    failed = failing(report)
+    undecided = [f for f in report.findings if f.undecided is not None and f not in failed]
+    if report.answers or not (failed or undecided):
+        return report.message.partition(": ")[2]
+    return _kinds([*failed, *undecided], report)
+
+
 def _is_allowed(finding: Finding) -> bool:
     """Return whether a rule lets this overlap pass."""
     return finding.severity in ("note", "silenced") and finding.at_rest in OVERLAPS

@@ -50,6 +50,7 @@ from satcheck.report.report import Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import has_only_rules, read_rules
+from satcheck.scene.words import listed
 
 _LIMITS = Limits()
 # Of one asset. Each needs address space, which the limit of a process counts.
@@ -57,7 +58,6 @@ _MOST_THREADS = 8
 
 
 STANDARD_INPUT = "-"
-_NAMED = 6
 
 
 class Drawing(NamedTuple):
@@ -293,8 +293,7 @@ def asset_names(inputs: Inputs) -> Assets:
 def tell_foreign(worlds: Iterable[World]) -> None:
     """`kit: no reader knows 2 files: kit/a.fbx, kit/b.blend`. worlds: of `foreign_worlds`."""
     for folder, *files in worlds:
-        named = ", ".join(files[:_NAMED]) + (", ..." if len(files) > _NAMED else "")
-        talk(f"satcheck: {folder}: no reader knows {counted(len(files), 'file')}: {named}")
+        talk(f"satcheck: {folder}: no reader knows {counted(len(files), 'file')}: {listed(files)}")
 
 
 def _is_skipped(file: str) -> bool:
