@@ -14,14 +14,12 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import pairwise
-from operator import mul
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from satcheck.cli.commands import COMMANDS, is_command
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
-from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.readers import mesh_reader, options
 from satcheck.scene.loader import is_mesh
 from satcheck.scene.opening import exists, is_file, is_folder
@@ -193,16 +191,12 @@ def about_assets(paths: Sequence[str], scene: Scene) -> list[Advice]:
 def _holds_origin(body: Body) -> bool:
     """Return whether the box of the body holds the origin, or misses it by a tenth of its size, as
     that of a thing that stands on the ground may."""
-    low, high = body.file.mesh.bounds
-    placed = body.transform or IDENTITY
-    rows = [placed[at : at + 4] for at in (0, 4, 8)]
-    middle = [*((a + b) / 2 for a, b in zip(low, high, strict=True)), 1.0]
-    half = [(b - a) / 2 for a, b in zip(low, high, strict=True)]
-    centre = [sum(map(mul, row, middle)) for row in rows]
-    reach = [
-        sum(abs(factor) * size for factor, size in zip(row, half, strict=False)) for row in rows
-    ]
-    return all(abs(c) <= r + max(reach) / 5 for c, r in zip(centre, reach, strict=True))
+    try:
+        low, high = body.world_mesh().bounds
+    except (OverflowError, ValueError):  # the check says so
+        return False
+    reach = max(b - a for a, b in zip(low, high, strict=True)) / 10
+    return all(a - reach <= 0.0 <= b + reach for a, b in zip(low, high, strict=True))
 
 
 def about_one_body(path: str, components: int) -> Iterator[Advice]:
