@@ -34,7 +34,6 @@ from satcheck.cli.formats.assets import (
     next_step,
     overview,
     summary_line,
-    tell_issues,
     written,
 )
 from satcheck.cli.inputs import Inputs
@@ -265,7 +264,8 @@ def tell_assets(seen: Overview, to: Delivery) -> None:
     """Tell on stderr what no table on standard output says, and where the reports are."""
     files = [str(target.output) for target in to.targets if target.output is not None]
     if files or to.forms != {"table"}:
-        tell_issues(seen)
+        for issue in seen.issues:
+            talk(f"satcheck: {issue_line(issue)}")
     if files and seen.total:
         talk(" ".join([summary_line(seen), *next_step(seen), f"Report: {', '.join(files)}"]))
 

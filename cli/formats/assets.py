@@ -36,7 +36,7 @@ from satcheck.cli.formats.tables import (
     joined,
     table,
 )
-from satcheck.cli.output import issue_line, talk
+from satcheck.cli.output import issue_line
 from satcheck.report.assets import ASSET_VERDICTS, Asset, AssetsReport, AssetVerdict, worst_verdict
 from satcheck.report.assets import counted as counts_of
 from satcheck.report.json import render_assets
@@ -123,12 +123,6 @@ def render(seen: Overview, page: Page) -> str:
     said += [*next_step(seen), *_steps_of_folders(seen)]
     lines = _table(seen.shown, root, page) if seen.shown else []
     return joined([*lines, *fitted_each(said, page)], page)
-
-
-def tell_issues(seen: Overview) -> None:
-    """Tell on stderr what a document of another format than a table does not say."""
-    for issue in seen.issues:
-        talk(f"satcheck: {issue_line(issue)}")
 
 
 def summary_line(seen: Overview) -> str:
@@ -296,12 +290,7 @@ class Overview(Struct):
     def total(self) -> int:
         return self.counts.total() - self.folders
 
-    def noting(self, assets: Iterable[Asset]) -> Iterator[Asset]:
-        for asset in assets:
-            self._note(asset)
-            yield asset
-
-    def _note(self, asset: Asset) -> None:
+    def noting(self, asset: Asset) -> Asset:
         self.counts[asset.verdict] += 1
         named = self.named.setdefault(asset.verdict, [])
         if len(named) <= NAMED:
@@ -315,6 +304,7 @@ class Overview(Struct):
             self.lone += not is_folder and len(asset.report.bodies) < 2
         self.config |= dict.fromkeys(config_lines([asset.report]))
         self.beside.note(asset.report)
+        return asset
 
 
 def _is_of_folder(issue: Issue, asset: Asset) -> bool:
@@ -332,7 +322,7 @@ def overview(
     """Return what is known of the assets. issues: about all of them. top: how many are shown at
     most, the worst first. compares: without a pair nothing passes."""
     made = Overview()
-    worst = worst_of(made.noting(assets), ROWS if top is None else top, asset_rank)
+    worst = worst_of(map(made.noting, assets), ROWS if top is None else top, asset_rank)
     made.shown = [each for each in worst if each.verdict != "pass"]
     empty = (_NOTHING_COMPARED,) if compares and not made.compared else ()
     made.issues = (*empty, *issues)
