@@ -158,7 +158,8 @@ def command(
         files.append(Path(results))
     _refuse(worlds, inputs, files, baseline)
     if results is None:
-        _refuse_without_results(worlds, resume=resume, engine=engine)
+        if resume:
+            raise click.UsageError("--resume: name a file for the results, -o results.jsonl")
         forms = {target.form for target in targets}
         refuse_certificate(forms, wanted=options["certificate"])
     config = stated_config(click.get_current_context())
@@ -241,16 +242,6 @@ def _refuse(
         ):
             said = name.replace("_", "-")
             raise click.UsageError(f"--read {said}: no reader of these files has this option")
-
-
-def _refuse_without_results(worlds: Sequence[World], *, resume: bool, engine: str) -> None:
-    wanted = {
-        "--resume": resume,
-        f"--engine {engine}": engine != "local",
-        "assets at URLs": any(map(is_remote, worlds)),
-    }
-    for what in (what for what, is_wanted in wanted.items() if is_wanted):
-        raise click.UsageError(f"{what}: name a file for the results, -o results.jsonl")
 
 
 def _worlds(

@@ -17,6 +17,7 @@ import click
 from msgspec import Struct, field
 
 from satcheck.audit.batch.check_world import beside_assets
+from satcheck.audit.batch.remote import is_url
 from satcheck.audit.batch.stored import least_of
 from satcheck.audit.messages import clause, failing
 from satcheck.audit.summary import tool
@@ -167,7 +168,10 @@ def _counts(seen: Overview, *, names: bool) -> str:
 def next_step(seen: Overview) -> list[str]:
     failing = seen.named.get("fail", [])[:1]
     unsure = [] if failing else seen.named.get("incomplete", [])[:1]
-    unsure = [file for file in unsure if not is_folder(file)]  # of files that no check reads
+    failing, unsure = (
+        [file for file in files if not (is_folder(file) or is_url(file))]  # which no check reads
+        for files in (failing, unsure)
+    )
     ctx = click.get_current_context(silent=True)
     if ctx is None or ctx.info_name != "view":
         steps = [f"Next: {_check_of(file)} lists its pairs." for file in failing]
