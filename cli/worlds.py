@@ -39,7 +39,7 @@ from satcheck.cli.formats.assets import (
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.option import names_of_lengths
-from satcheck.cli.output import Document, issue_line, talk
+from satcheck.cli.output import Document, cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
 from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
@@ -103,7 +103,11 @@ def check_worlds(
         threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
         how = {"slots": jobs, "wanted": Wanted(kept=results is not None, threads=threads)}
     check = partial(engine, options=terms, limits=limits, **how)
-    with TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True) as folder:
+    try:
+        temporary = TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
+    except OSError as error:
+        raise cannot_write("a temporary file", error.strerror) from None
+    with temporary as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
         tally = _run(worlds, terms, limits, check, path, resume=resume, stays=results is not None)
         if results is not None and not to.quiet:

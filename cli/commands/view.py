@@ -129,8 +129,7 @@ def command(
     is_opened = form is None and not outputs and folder is None
     refuse_outputs(outputs, inputs)
     targets = () if is_opened else targets_of(form, outputs, ALL, _FORMATS)
-    to = Delivery(targets, quiet=False, exit_zero=exit_zero, timings=True, top=top)
-    to = replace(to, parts=parts, pose=pose)
+    to = Delivery(targets, False, exit_zero, timings=True, top=top, parts=parts, pose=pose)
     view = _View(Document(), to, Drawing(root, folder, allow_outside, top or TOP))
     if any(path.suffix.lower() in ENDINGS for path in reports):
         expected = () if manifest is None else read_manifest(manifest)
