@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib import import_module
-from typing import Any, cast
+from typing import cast
 
 import click
 from click.core import ParameterSource
@@ -54,18 +54,8 @@ def _row(ctx: click.Context, key: str, option: click.Option) -> tuple[str, str]:
     file, source = config_of(ctx), ctx.get_parameter_source(option.name or "")
     if file is not None and source is ParameterSource.DEFAULT_MAP:
         return f"{key} = {toml(file.values[key])}", file.where(key)
-    value = _in_words(option, ctx.params.get(option.name or "", option.get_default(ctx)))
-    return (
-        f"{key} = {value}",
-        "command line" if source is ParameterSource.COMMANDLINE else "default",
-    )
-
-
-def _in_words(option: click.Option, value: Any) -> str:
+    value = ctx.params.get(option.name or "", option.get_default(ctx))
     if option.flag_value is False:  # --no-timings
-        return toml(not value)
-    if value is None or value == () or value == {}:
-        return "not set"
-    if isinstance(value, bool | int | float):
-        return toml(value)
-    return toml(tuple(map(str, value))) if isinstance(value, tuple) else toml(str(value))
+        value = not value
+    said = "not set" if value is None or value in ((), {}) else toml(value)
+    return f"{key} = {said}", "command line" if source is ParameterSource.COMMANDLINE else "default"
