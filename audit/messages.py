@@ -15,20 +15,23 @@ from satcheck.audit.words import (
     about,
     bounds,
     counted,
+    figure,
     in_motion,
-    interval,
     is_hit,
+    is_unusable,
     joint_values,
     limits,
     number,
     past_holes,
     severity,
+    short_names,
     vector,
     with_titles,
     with_unit,
     worst_first,
 )
 from satcheck.report.report import BEYOND_BUDGET, INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
+from satcheck.report.request import OPTIONS_OF_LIMITS
 from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
 from satcheck.scene.units import unit_of
 
@@ -74,18 +77,26 @@ def nothing_checked(issues: Iterable[Issue]) -> list[str]:
 
 def verdict_line(report: Report) -> str:
     """Return `PASS: no collision.`, `FAIL: box and lid overlap (1 mm to pull apart).`"""
-    verdict, errors, left_open = report.summary.verdict, _errors(report), _left_open(report)
+    verdict, errors, is_open = report.summary.verdict, _errors(report), left_open(report)
     word, unchecked = f"{verdict.upper()}:", nothing_checked(report.issues)
     if verdict == "fail":
-        more = [*left_open, *_unmeasured(report), *errors]
+        more = [*is_open, *_unmeasured(report), *errors]
         return " ".join([word, f"{_failed(report)}.", *map(_sentence, more)])
     if unchecked:
         return " ".join([word, *unchecked, *map(_sentence, errors)])
     if verdict == "pass":
         return f"{word} {'; '.join([*errors, _passed(report)])}."
-    if left_open:
-        left_open[0] = f"{_no_collision(report)}, but {left_open[0]}"
-    return f"{word} {'; '.join([*left_open, *errors]) or 'not everything was checked'}."
+    if has_no_pair(report):
+        return f"{word} no pair could be checked: {'; '.join(errors)}."
+    if is_open:
+        is_open[0] = f"{_no_collision(report)}, but {is_open[0]}"
+    return f"{word} {'; '.join([*is_open, *errors]) or 'not everything was checked'}."
+
+
+def has_no_pair(report: Report) -> bool:
+    """Return whether inputs that cannot be used leave nothing to check."""
+    usable = sum(not is_unusable(body) for body in report.bodies)
+    return usable < min(len(report.bodies), 2) and not report.answers
 
 
 def of_command(report: Report) -> str:
@@ -122,16 +133,21 @@ def _passed(report: Report) -> str:
 def _no_collision(report: Report) -> str:
     if report.summary.accepted:
         return "no new or worse finding"
-    ruled = any(map(_is_ruled, report.findings))
-    none = "no collision beyond what rules allow" if ruled else "no collision"
+    by = dict.fromkeys(who for finding in report.findings for who in _allowing(finding))
+    allow = "allows" if len(by) == 1 and "rules" not in by else "allow"
+    none = f"no collision beyond what {' and '.join(by)} {allow}" if by else "no collision"
     return none if report.summary.verdict == "pass" else f"{none} was found"
 
 
-def _is_ruled(finding: Finding) -> bool:
-    """Of a check that does not fail: whether a rule allows the pair what it has, or may."""
-    if finding.relation in OVERLAPS:
-        return finding.undecided != "relation"
-    return finding.rule is not None and finding.undecided != "limit"
+def _allowing(finding: Finding) -> list[str]:
+    """Return what allows the pair of a check that does not fail what it has, or may: `--max-depth`,
+    or rules."""
+    overlaps = finding.relation in OVERLAPS
+    if finding.undecided == ("relation" if overlaps else "limit"):
+        return []
+    named = (finding.rule or "").split(", ")
+    options = [name for name in OPTIONS_OF_LIMITS.values() if name in named]
+    return options or (["rules"] if overlaps or finding.rule is not None else [])
 
 
 def failing(report: Report) -> list[Finding]:
@@ -146,8 +162,11 @@ def _failed(report: Report) -> str:
     said = [_kinds(worst, report)] if worst else []
     if worst:
         first = clause(worst[0], report, brief=True)
+        if len(worst) == 1 and len(first) > _MOST:
+            a, b = short_names(worst[0].a, worst[0].b)
+            first = clause(replace(worst[0], a=a, b=b), report, brief=True)
         named = [first] if len(worst) == 1 else [*said, f"worst: {first}"]
-        said = named if len("; ".join(named)) <= _MOST else said
+        said = named if len(worst) == 1 or len("; ".join(named)) <= _MOST else said
     said += _unmet(report)
     if worst and all(finding.severity != "error" for finding in worst):
         said.append(f"failed by --fail-on {report.settings.fail_on}")
@@ -181,6 +200,16 @@ def _kinds(worst: Iterable[Finding], report: Report) -> str:
             too_much = " more than allowed" if allowed else ""
             said.append(f"{count:,}{'' if said else total} {verbs[count > 1]}{too_much}")
     return ", ".join(said)
+
+
+def wrong_pairs(report: Report) -> str:
+    """Return `6 of 21 pairs overlap, 1 is undecided`, as a title; the message where no pair is at
+    fault."""
+    failed = failing(report)
+    undecided = [f for f in report.findings if f.undecided is not None and f not in failed]
+    if report.answers or not (failed or undecided):
+        return report.message.partition(": ")[2]
+    return _kinds([*failed, *undecided], report)
 
 
 def _is_allowed(finding: Finding) -> bool:
@@ -280,11 +309,7 @@ def _is_unsure(finding: Finding, report: Report) -> bool:
 
 def _figures(finding: Finding, unit: str | None) -> list[str]:
     known = {"thickness {}": finding.thickness_bounds, "{} to pull apart": finding.depth_bounds}
-    said = [
-        words.format(with_unit(interval(proven, bounded="at most "), unit))
-        for words, proven in known.items()
-        if proven is not None
-    ]
+    said = [words.format(figure(proven, unit)) for words, proven in known.items() if proven]
     if finding.volume is not None:
         said.append(f"volume {with_unit(number(finding.volume), unit and f'{unit}^3')}")
     return said
@@ -306,8 +331,8 @@ def _apart(finding: Finding, unit: str | None) -> str:
     return f"are {with_unit(gap, unit)} apart"
 
 
-def _left_open(report: Report) -> list[str]:
-    """`1 pair is indeterminate`: what was asked and could not be decided."""
+def left_open(report: Report) -> list[str]:
+    """Return `1 pair is indeterminate`: what was asked and could not be decided."""
     summary, said = report.summary, []
     undecided = sum(
         f.undecided == "relation" and f.baseline_state != "accepted" for f in report.findings

@@ -35,6 +35,7 @@ from satcheck.scene.bodies import Accepted
 from satcheck.scene.files.readers import stated_options
 from satcheck.scene.planar.outline import Outline as FlatOutline
 from satcheck.scene.planar.outline import Shape
+from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -184,7 +185,6 @@ def stopped_early(unexamined: int) -> Iterator[Issue]:
 
 # Two bodies of about one size, one in millimetres and one in metres, are about 1000-fold apart.
 UNLIKE = 500.0
-_SHOWN = 5  # bodies in one message
 
 
 def doubtful_sizes(
@@ -221,9 +221,8 @@ def _tolerances(sizes: dict[str, float], findings: Sequence[Finding]) -> Iterato
         return
     tolerance = max(largest[id_] for id_ in small)
     verb = "is" if len(small) == 1 else "are"
-    more = f" and {len(small) - _SHOWN} more" if len(small) > _SHOWN else ""
     message = (
-        f"{', '.join(small[:_SHOWN])}{more} {verb} smaller than the tolerance {tolerance:.3g}, "
+        f"{listed(small)} {verb} smaller than the tolerance {tolerance:.3g}, "
         "within which an overlap counts as touching"
     )
     yield Issue(TOLERANCE_LARGE, "warning", small[0] if len(small) == 1 else None, None, message)

@@ -34,6 +34,7 @@ ROUNDOFF = 1e-12
 NEGLIGIBLE = 1e-3
 # A line names at most so many joints.
 MOST_JOINTS = 8
+LONGEST_NAME = 40  # where there is little room
 _MILDER: tuple[Relation, ...] = ("indeterminate", "touching", "near", "separated")
 
 
@@ -128,6 +129,11 @@ def interval(proven: Interval | None, *, bounded: str = "<= ") -> str:
         return ""
     low, high = proven
     return bounded + at_most(high) if low <= NEGLIGIBLE * high < high else bounds(low, high)
+
+
+def figure(proven: Interval | None, unit: str | None) -> str:
+    """Return `0.504 ±0.003 mm`, `at most 0.3 mm`."""
+    return with_unit(interval(proven, bounded="at most "), unit)
 
 
 def is_unusable(body: BodyReport) -> bool:
@@ -244,6 +250,13 @@ def common_root(names: Collection[str]) -> str:
     ends = zip(min(names, default=""), max(names, default=""), strict=False)
     same = "".join(a for a, _ in takewhile(lambda pair: pair[0] == pair[1], ends))
     return same[: same.rfind("/") + 1]
+
+
+def short_names(*ids: str) -> list[str]:
+    """Return the names without the folders that all share, of a long one its end."""
+    root = common_root(ids) if len(ids) > 1 else ""
+    short = [id_.removeprefix(root) for id_ in ids]
+    return [name if len(name) <= LONGEST_NAME else f"…{name[-LONGEST_NAME:]}" for name in short]
 
 
 def without_root(report: Report, root: str) -> Report:

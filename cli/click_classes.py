@@ -1,5 +1,5 @@
-"""The commands as click has them: how each shows its help and tells a wrong value of a config file,
-and the group of them all, whose first word is a path unless it names a command."""
+"""The commands as click has them: how each shows its help, and the group of them all, whose first
+word is a path unless it names a command."""
 
 from __future__ import annotations
 
@@ -40,17 +40,7 @@ DEFAULT_COMMAND = "check"
 
 class Command(click.Command):
     """Its help is a document like any other: when it cannot be written, that is said. Many options
-    stand under headings. A wrong value of a config file is told with its line."""
-
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        try:
-            return super().parse_args(ctx, args)
-        except click.BadParameter as error:
-            if not ctx.default_map:
-                raise
-            from satcheck.cli.config import refuse_value
-
-            refuse_value(ctx, error)
+    stand under headings."""
 
     def __init__(self, *args: Any, daily: str = "", **more: Any) -> None:
         """daily: the names of the options that --help shows; --help-all shows all."""

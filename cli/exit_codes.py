@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from satcheck.report.assets import AssetVerdict
-    from satcheck.report.report import Issue, Verdict
+    from satcheck.report.report import Issue, Report, Verdict
+    from satcheck.report.samples import SamplesReport
 
 CLEAN = 0  # everything was checked, and no pair fails
-FINDINGS = 1  # bodies overlap beyond what rules allow, or are closer than their clearance
+FINDINGS = 1  # bodies overlap more than is allowed, or are closer than their clearance
 ERROR = 2  # usage, unreadable input, or a fault of satcheck itself
 INCOMPLETE = 3  # no pair is known to fail, but not everything could be checked
 INTERRUPTED = 130  # Ctrl-C, the shells' 128 + SIGINT
@@ -24,17 +25,26 @@ _BY_VERDICT: dict[AssetVerdict, int] = {
 }
 
 
-def for_verdict(verdict: Verdict, issues: Iterable[Issue], *, exit_zero: bool) -> int:
-    """ERROR when an input could not be used, else by verdict; exit_zero forgives findings only."""
-    if any(issue.severity == "error" for issue in issues):
-        return ERROR
-    return for_assets(verdict, exit_zero=exit_zero)
+def for_report(report: Report | SamplesReport, *, exit_zero: bool) -> int:
+    """Return ERROR when an input could not be used, else by the verdict. exit_zero forgives what
+    fails, and not what is open."""
+    verdict = report.summary.verdict
+    if exit_zero and verdict == "fail":
+        verdict = "incomplete" if _has_open(report) else "pass"
+    return for_verdict(verdict, report.issues)
 
 
-def for_assets(verdict: AssetVerdict, *, exit_zero: bool) -> int:
-    """By the worst verdict; exit_zero forgives findings only."""
-    code = _BY_VERDICT[verdict]
-    return CLEAN if exit_zero and code == FINDINGS else code
+def for_verdict(verdict: Verdict, issues: Iterable[Issue]) -> int:
+    return ERROR if any(issue.severity == "error" for issue in issues) else _BY_VERDICT[verdict]
+
+
+def _has_open(report: Report | SamplesReport) -> bool:
+    from satcheck.audit.messages import left_open
+    from satcheck.report.report import Report
+
+    if isinstance(report, Report):
+        return bool(left_open(report))
+    return any(pair.undecided for pair in report.pairs)
 
 
 def for_counts(verdicts: Counter[AssetVerdict], *, exit_zero: bool) -> int:

@@ -25,7 +25,6 @@ from satcheck.report.json import document as json_document
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-_BCF_2 = ".bcfzip"
 STANDARD_OUTPUT = Path("-")
 
 
@@ -77,45 +76,40 @@ def targets_of(
 ) -> tuple[Target, ...]:
     """Return the documents that a call asks for: one for each -o, else one on standard output. The
     form is that of standard output, or of the only file. Raises as `form_of`."""
+    paths = outputs or (STANDARD_OUTPUT,)
     if outputs and _is_overridden("form", "outputs"):
         form = None
-    if not outputs:
-        outputs = (STANDARD_OUTPUT,)
-    is_shown = STANDARD_OUTPUT in outputs
-    if form is not None and len(outputs) > 1 and not is_shown:
+    is_shown = STANDARD_OUTPUT in paths
+    if form is not None and len(paths) > 1 and not is_shown:
         raise click.UsageError("--format is about one document, and several files are named")
     targets = []
-    for path in outputs:
+    for path in paths:
         output = None if path == STANDARD_OUTPUT else path
-        own = None if is_shown and output is not None else form
-        targets.append(Target(form_of(own, output, kinds, also), output))
+        own = form if output is None or not is_shown else None
+        targets.append(Target(_form(own, output, {**formats(kinds), **also}), output))
     return tuple(targets)
 
 
 def form_of(
-    form: str | None,
-    output: Path | None,
-    kinds: tuple[Kind, ...] = PLAIN,
-    also: Mapping[str, Format] = {},
+    form: str | None, output: Path | None, known: Mapping[str, Format] | None = None
 ) -> str:
-    """Return the format: as given, else as the name of the output file says.
-
-    kinds: of formats that the command writes. also: further formats. Raises click.UsageError for a
-    name that promises what the command does not write.
-    """
+    """Return the format of a command that writes these: as given, else as the name of the file
+    says. known: None: JSON and a table. Raises click.UsageError for a name that promises what it
+    does not write."""
     if output is not None and _is_overridden("form", "output"):
         form = None
-    known = {**formats(kinds), **also}
+    return _form(form, output, known or formats(PLAIN))
+
+
+def _form(form: str | None, output: Path | None, known: Mapping[str, Format]) -> str:
     if form is not None and form not in known:
         raise click.UsageError(f"--format {form}: this command writes {', '.join(known)}")
     ending = "" if output is None else output.suffix.lower()
     if form is not None or not ending:
         return form or "table"
-    if ending == _BCF_2 and "bcf" in known:
-        raise click.UsageError(f"{output}: BCF 2.1 is not written: name the file .bcf for BCF 3.0")
-    own = next((each for each in also.values() if ending in each.endings), None)
-    named = own or format_of(ending)
-    if named is None or named.name not in {**formats(kinds), **also}:
+    own = (each for each in reversed(list(known.values())) if ending in each.endings)
+    named = next(own, None) or format_of(ending)
+    if named is None or named.name not in known:
         raise click.UsageError(f"{output}: {unknown_ending(known.values())}")
     return named.name
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any, Self
 
@@ -17,17 +18,14 @@ from satcheck.cli.output import cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import Scene
+from satcheck.scene import Scene, Selector
 from satcheck.scene.files.nodes import Split
-from satcheck.scene.files.readers import (
-    GeometryKind,
-    ReadLimits,
-    ReadOptions,
-    kind_of,
-)
+from satcheck.scene.files.readers import GeometryKind, ReadLimits, ReadOptions, kind_of
 from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.opening import Permitted, is_folder
+from satcheck.scene.rules import GROUP
+from satcheck.scene.words import listed, meant
 
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(
@@ -155,13 +153,17 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
-        scene = inputs.load_options.load(paths, hashed=hashed, must_count=typed(inputs.read))
+        try:
+            scene = inputs.load_options.load(paths, hashed=hashed, must_count=typed(inputs.read))
+        except SatcheckError as error:
+            raise _with_view(error, paths) from None
+    _refuse_unknown(inputs.between, scene)
     if inputs.units and _is_typed("units") and _is_stated(paths, scene):
         talk("satcheck: note: --units has no effect: each file states its unit")
     told = (issue for issue in scene.issues if tell_all or issue.severity == "error")
     for issue in dict.fromkeys(told):
         talk(f"satcheck: {issue_line(issue)}")
-    advice = _advice(paths)
+    advice = _advice(paths, scene)
     if scene.asks_for_support or scene.asks_for_regions:
         least = 1
     if len(scene.bodies) + len(scene.unreadable) < least:
@@ -176,6 +178,28 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
     for line in advice:
         talk(line)
     return scene
+
+
+def _with_view(error: SatcheckError, paths: Sequence[str]) -> Exception:
+    """Return the error, with the command for a stored report that is given as an input."""
+    from satcheck.cli.slips import about_stored
+
+    advice = about_stored(paths)
+    return click.ClickException(f"{error} [{error.code}]\n{advice}") if advice else error
+
+
+def _refuse_unknown(between: Sequence[tuple[str, str]], scene: Scene) -> None:
+    """Refuse a name of --between that selects nothing, unless an input cannot be read."""
+    for name in () if scene.unreadable else chain.from_iterable(between):
+        selector = Selector(name)
+        if selector.select(scene.bodies):
+            continue
+        names = [body.id for body in scene.bodies]
+        if selector.of_groups:
+            names = sorted({f"{GROUP}{each}" for body in scene.bodies for each in body.groups})
+        known = meant(name, names) or f": there are {listed(names) or 'none'}"
+        what = "group" if selector.of_groups else "body"
+        raise click.UsageError(f"--between: no {what} is {name}{known}")
 
 
 def _is_stated(paths: Sequence[str], scene: Scene) -> bool:
@@ -254,8 +278,13 @@ def _refuse_first_word(word: str) -> None:
         raise click.ClickException(f"there is no command {word}\n{advice}")
 
 
-def _advice(paths: Sequence[str]) -> list[str]:
+def _advice(paths: Sequence[str], scene: Scene) -> list[str]:
     """Lines about paths that look like slips."""
+    if scene.unreadable:
+        from satcheck.cli.slips import about_stored
+
+        if stored := about_stored(paths):
+            return [str(stored)]
     if all(map(os.path.isfile, paths)) and len(set(paths)) == len(paths):
         return []
     from satcheck.cli.slips import about_paths

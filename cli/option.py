@@ -206,7 +206,9 @@ top = click.option(
     metavar="N",
     help="List only the N worst in a table. The summary and the exit code count all.",
 )
-exit_zero = click.option("--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail.")
+exit_zero = click.option(
+    "--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail; with 3 if others are open."
+)
 root = click.option(
     "--root",
     type=click.Path(file_okay=False, exists=True, path_type=Path),

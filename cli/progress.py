@@ -104,19 +104,12 @@ class Bar:
             self._shown = (bar, task)
 
     def _pace(self, task: Task) -> str:
-        """`120/300 pairs, 35/s, 5 s left`; where little is counted, the time so far."""
+        """Return `120/300 pairs, 35/s, 0:00:05 left`; where little is counted, the time so far."""
+        from datetime import timedelta
+
         counted = f"{self._done:,}/{self._total:,} {self._unit}, " if self._total else ""
         counted += f"{self._beside}, " if self._beside else ""
         if self._total >= RATED and task.speed and task.time_remaining is not None:
-            return f"{counted}{task.speed:.3g}/s, {in_words(task.time_remaining)} left"
-        return f"{counted}{in_words(task.elapsed or 0.0)}"
-
-
-def in_words(seconds: float) -> str:
-    """`8 s`, `2 min 5 s`, `1 h 5 min`."""
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60} s"
-    return f"{whole // 3600} h {whole % 3600 // 60} min"
+            left = timedelta(seconds=round(task.time_remaining))
+            return f"{counted}{task.speed:.3g}/s, {left} left"
+        return f"{counted}{timedelta(seconds=round(task.elapsed or 0.0))}"

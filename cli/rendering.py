@@ -30,7 +30,9 @@ WARNINGS = 5
 
 class Delivery(Struct, frozen=True):
     """What is written, and how the exit code is made. timings: state times. top: how many rows a
-    table lists at most. explain: the steps of each pair."""
+    table lists at most. explain: the steps of each pair. parts: a page shows the convex parts of
+    bodies. pose: a picture shows this one of several; None: a page all of them, another the worst.
+    """
 
     targets: tuple[Target, ...]
     quiet: bool
@@ -38,6 +40,8 @@ class Delivery(Struct, frozen=True):
     timings: bool
     top: int | None
     explain: bool = False
+    parts: bool = False
+    pose: int | None = None
 
     @property
     def forms(self) -> set[str]:
@@ -52,8 +56,8 @@ def rendered(
     if kind == "picture":
         from satcheck.cli.formats.picture import render as render_picture
 
-        parts = result.settings.accuracy == "parts"
-        return render_picture(form, result, scene, split=parts)
+        parts = to.parts or result.settings.accuracy == "parts"
+        return render_picture(form, result, scene, split=parts, pose=to.pose)
     if isinstance(result, SamplesReport):
         if form == "json":
             return json_document(result.to_dict(to.timings))
@@ -75,7 +79,7 @@ def deliver(document: Document, result: Report | SamplesReport, scene: Scene, to
     shown = [target for target in to.targets if target.output is not None or not to.quiet]
     for form, output in ((target.form, target.output) for target in shown):
         document.deliver(partial(rendered, result, scene, form, to), output, utf8=form != "table")
-    files = "" if to.quiet else files_line(result, scene, shown)
+    files = "" if to.quiet else files_line(result, scene, to)
     is_told = bool(shown) and all(target.output is not None for target in shown)
     tell(result, scene, files, written=is_told and not to.quiet)
 
@@ -139,19 +143,15 @@ def refuse_outputs(outputs: Sequence[Path], inputs: Inputs, baseline: Path | Non
         files.append(output)
 
 
-def files_line(
-    report: Report | SamplesReport,
-    scene: Scene,
-    targets: Iterable[Target],
-    pose: int | None = None,
-) -> str:
-    """`Report: a.json. Image of box and lid: a.png. Model: a.glb`; empty without a file. pose: the
-    drawn one of several; None: the worst."""
-    return ". ".join(
-        f"{_what(target.form, report, scene, pose)}: {target.output}"
-        for target in targets
-        if target.output is not None
-    )
+def files_line(report: Report | SamplesReport, scene: Scene, to: Delivery) -> str:
+    """Return `Report: a.json, a.html. Image of box and lid: a.png. Model: a.glb`; nothing without a
+    file."""
+    files: dict[str, list[str]] = {}
+    for target in to.targets:
+        if target.output is not None:
+            what = _what(target.form, report, scene, to.pose)
+            files.setdefault(what, []).append(str(target.output))
+    return ". ".join(f"{what}: {', '.join(names)}" for what, names in files.items())
 
 
 def _what(form: str, report: Report | SamplesReport, scene: Scene, pose: int | None) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -111,27 +111,13 @@ def _once(issues: Sequence[Issue]) -> Iterator[Issue]:
             yield issue
 
 
-def read_report(path: Path) -> Report | AssetsReport:
-    """Raises what `read_stored` raises; also for a report of several poses."""
-    return cast("Report | AssetsReport", _read(path, {"assets": AssetsReport}))
-
-
 def read_stored(path: Path) -> Report | AssetsReport | SamplesReport:
-    """Raises SatcheckError: `bad-report`, or a code about the file."""
-    return _read(path, {"assets": AssetsReport, "samples": SamplesReport})
-
-
-def _read(
-    path: Path, kinds: Mapping[str, type[AssetsReport | SamplesReport]]
-) -> Report | AssetsReport | SamplesReport:
-    """kinds: by the field that only they have."""
+    """Return the report in a file. Raises SatcheckError: `bad-report`, or a code about the file."""
     try:
-        data = read_whole(str(path), path)
-        head = msgspec.json.decode(data)
-        for field, kind in kinds.items():
-            if isinstance(head, dict) and field in head:
-                return msgspec.convert(head, kind)
-        return msgspec.convert(head, Report)
+        head = msgspec.json.decode(read_whole(str(path), path))
+        kinds = {"assets": AssetsReport, "samples": SamplesReport} if isinstance(head, dict) else {}
+        kind = next((kinds[field] for field in kinds if field in head), Report)
+        return cast("Report | AssetsReport | SamplesReport", msgspec.convert(head, kind))
     except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
         reason = f"no JSON report of this version of satcheck: {error}"
         if path.suffix.lower() != ".json":

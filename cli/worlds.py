@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 from collections import deque
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import closing
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
+from contextlib import nullcontext
 from functools import partial
-from itertools import chain
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import click
 from msgspec.structs import asdict
 
 from satcheck.audit.baseline import read_baseline
-from satcheck.audit.batch.check_world import unused_rules, without_unused_rules
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import CheckOptions, Limits, World
-from satcheck.audit.batch.slot_server import Wanted
-from satcheck.audit.batch.stored import INTERRUPTED, Stored, StoredResults, least_of
+from satcheck.audit.batch.remote import is_url, local_results
+from satcheck.audit.batch.results import PART, ResultsFile
+from satcheck.audit.batch.run import Engine, Tally, run
+from satcheck.audit.batch.slot_server import Answer, Wanted
+from satcheck.audit.batch.stored import INTERRUPTED, Stored, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli import exit_codes
 from satcheck.cli.format_option import Target
@@ -28,25 +31,25 @@ from satcheck.cli.formats import worst_page
 from satcheck.cli.formats.assets import (
     AssetReports,
     Overview,
+    next_step,
     overview,
     summary_line,
-    tell_issues,
     written,
 )
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.option import names_of_lengths
-from satcheck.cli.output import Document, issue_line, talk
+from satcheck.cli.output import Document, cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
 from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
 from satcheck.core.errors import SatcheckError
-from satcheck.report.assets import Asset, Result
-from satcheck.report.json import read_line
-from satcheck.report.report import NOTHING_TO_CHECK, Issue
+from satcheck.report.assets import ASSET_VERDICTS
+from satcheck.report.report import Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import has_only_rules, read_rules
+from satcheck.scene.words import listed
 
 _LIMITS = Limits()
 # Of one asset. Each needs address space, which the limit of a process counts.
@@ -54,7 +57,6 @@ _MOST_THREADS = 8
 
 
 STANDARD_INPUT = "-"
-_NAMED = 6
 
 
 class Drawing(NamedTuple):
@@ -72,48 +74,127 @@ def check_worlds(
     inputs: Inputs,
     options: Mapping[str, Any],
     baseline: Path | None,
-    delivery: Delivery,
+    to: Delivery,
     config: StatedConfig | None,
     limits: Limits = _LIMITS,
     *,
     complete: bool = True,
     compares: bool = False,
+    results: str | None = None,
+    resume: bool = False,
+    engine: Callable[..., Generator[list[Answer]]] = check_locally,
+    scheduler: str | None = None,
 ) -> int:
-    """The exit code, that of the worst world. inputs: how files are read. options: those of
-    `audit.Settings`. config: the options that come from a config file. limits: for each world.
-    complete: these are all worlds; a rule that none of them needs is unused. compares: without a
-    pair nothing passes. After Ctrl-C the
-    report has the worlds that are done, and says how many are not. Raises KeyboardInterrupt if none
-    is.
+    """Check worlds into a file of results, write the documents from it, and return the exit code,
+    that of the worst world.
+
+    inputs: how files are read. options: those of `audit.Settings`. config: the options that come
+    from a config file. limits: for each world. complete: these are all worlds; a rule that none of
+    them needs is unused. compares: without a pair nothing passes. results: the file or URL; None: a
+    file for this call, whose results have times. resume: keep its results that hold. scheduler: of
+    another engine than the local one. After Ctrl-C a file for this call has the worlds that are
+    done, and the report says how many are not. Raises KeyboardInterrupt if none is, and where the
+    file stays.
     """
-    forms = delivery.forms
-    terms = check_options(inputs, options, baseline, config, places=forms != {"table"})
-    document = Document()
-    jobs = options["jobs"] or os.cpu_count() or 1
-    hashed = not forms.isdisjoint(("json", "html"))
-    assets = check_each(worlds, terms, limits, jobs, hashed=hashed)
-    interrupted = _interrupted(len(worlds) - len(assets), len(worlds))
-    shared = frozenset(map(str, inputs.rules))
-    found = list(assets.values())
-    unused = unused_rules(found, shared) if complete and not interrupted else ()
-    stored = [
-        Stored(world, (), without_unused_rules(each, shared)) for world, each in assets.items()
-    ]
-    empty = _nothing_compared(found) if compares else ()
-    issues = interrupted or (*empty, *unused)
-    seen_assets = (each.asset for each in stored)
-    seen = overview(seen_assets, issues, least=least_of(issues), top=delivery.top)
-    top = Drawing().top if delivery.top is None else delivery.top
-    drawing = Drawing(allow_outside=inputs.allow_outside, top=top)
-    deliver_assets(document, seen, stored, delivery, drawing)
-    if delivery.quiet or all(target != Target("table", None) for target in delivery.targets):
-        _tell_errors(stored)
-    if not delivery.quiet:
-        tell_assets(seen, delivery)
-    if interrupted:
-        talk(f"satcheck: {interrupted[0].message}")
+    terms, document = check_options(inputs, options, baseline, config), Document()
+    how: dict[str, Any] = {"scheduler": scheduler}
+    if scheduler is None:
+        jobs = options["jobs"] or os.cpu_count() or 1
+        threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
+        how = {"slots": jobs, "wanted": Wanted(kept=results is not None, threads=threads)}
+    check = partial(engine, options=terms, limits=limits, **how)
+    try:
+        temporary = TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
+    except OSError as error:
+        raise cannot_write("a temporary file", error.strerror) from None
+    with temporary as folder:
+        path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
+        tally = _run(worlds, terms, limits, check, path, resume=resume, stays=results is not None)
+        if results is not None and not to.quiet:
+            talk(_summary(tally, results, is_alone=not to.targets))
+        if results is not None and not to.targets:
+            return exit_codes.for_counts(tally.verdicts, exit_zero=to.exit_zero)
+        left = len(worlds) - tally.done
+        issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
+        with StoredResults([Path(path)]) as stored:
+            found = (each.asset for each in stored)
+            seen = overview(found, issues, top=to.top, compares=compares and not left)
+            drawing = Drawing(allow_outside=inputs.allow_outside, top=to.top or Drawing().top)
+            deliver_assets(document, seen, stored, to, drawing)
+            if to.quiet or Target("table", None) not in to.targets:
+                _tell_errors(stored)
+    if not to.quiet:
+        tell_assets(seen, to)
+    if left:
+        talk(f"satcheck: {issues[0].message}")
         return exit_codes.INTERRUPTED
-    return exit_codes.for_counts(seen.verdicts, exit_zero=delivery.exit_zero)
+    return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
+
+
+def _run(
+    worlds: Sequence[World],
+    terms: CheckOptions,
+    limits: Limits,
+    engine: Engine,
+    output: str,
+    *,
+    resume: bool,
+    stays: bool,
+) -> Tally:
+    """Check the worlds into the file of results. stays: after this call. Of a file that does not,
+    Ctrl-C keeps what is done."""
+    local = local_results(output, PART) if is_url(output) else nullcontext(Path(output))
+    with local as path, ResultsFile(path) as results, Bar("assets") as bar:
+        if not resume and (existing := results.existing()) is not None:
+            reason = "has results: --resume keeps those that still hold; or remove the file"
+            named = output if is_url(output) else str(existing)
+            raise SatcheckError("results-exist", reason, file=named)
+        tally = Tally(len(worlds))
+
+        def show(reached: Tally) -> None:
+            nonlocal tally
+            tally = reached
+            if bar is not None:
+                bar(tally.done, tally.total, _verdicts(tally, but="pass"))
+
+        try:
+            run(worlds, terms, limits, engine, results, show)
+        except (KeyboardInterrupt, SatcheckError) as error:
+            if is_url(output) or not stays:
+                write_before_the_end()
+            if not tally.done or (not stays and isinstance(error, SatcheckError)):
+                raise
+            if stays:
+                place = output if is_url(output) else str(results.part)
+                talk(f"satcheck: {_recorded(tally, place)}")
+                raise
+            results.finish()
+    return tally
+
+
+def _recorded(tally: Tally, place: str) -> str:
+    done = f"{tally.done:,} of {counted(tally.total, 'asset')} are recorded in {place}"
+    return f"{done}: the same command with --resume checks the others"
+
+
+def _verdicts(tally: Tally, but: str = "") -> str:
+    """Return `1 error, 5 pass`."""
+    return ", ".join(
+        f"{tally.verdicts[verdict]:,} {verdict}"
+        for verdict in ASSET_VERDICTS
+        if tally.verdicts[verdict] and verdict != but
+    )
+
+
+def _summary(tally: Tally, output: str, *, is_alone: bool) -> str:
+    """Return what a run says of its results. is_alone: no other document shows them."""
+    kept = f" ({tally.kept:,} kept)" if tally.kept else ""
+    verdicts = f": {_verdicts(tally)}{kept}" if tally.done else ""
+    shows = ""
+    if is_alone and tally.verdicts["pass"] < tally.done and not is_url(output):
+        line = shlex.join(["satcheck", "view", output, "-o", "gallery.html"])
+        shows = f"\nNext: {line} shows the worst findings."
+    return f"{counted(tally.total, 'asset')}{verdicts}. Results: {output}{shows}"
 
 
 def check_options(
@@ -121,8 +202,6 @@ def check_options(
     options: Mapping[str, Any],
     baseline: Path | None,
     config: StatedConfig | None,
-    *,
-    places: bool = True,
 ) -> CheckOptions:
     """options: those of `audit.Settings`. The others: as in CheckOptions. Raises SatcheckError for
     files that all worlds share: what is wrong there is no fault of one of them."""
@@ -134,51 +213,12 @@ def check_options(
         **asdict(inputs.load_options),
         settings={**options, **inputs.limits},
         names=names_of_lengths(options),
-        places=places,
         baseline=None if baseline is None else str(baseline),
         config=config,
     )
 
 
-def check_each(
-    worlds: Sequence[World],
-    options: CheckOptions,
-    limits: Limits,
-    jobs: int,
-    *,
-    hashed: bool = False,
-) -> dict[World, Asset]:
-    """Return the assets in the order of the worlds; after Ctrl-C only those that are done. Raises
-    KeyboardInterrupt if none is."""
-    threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
-    wanted = Wanted(kept=False, hashed=hashed, threads=threads)
-    assets: dict[World, Asset] = {}
-    with Bar("assets") as bar:
-        try:
-            with closing(check_locally(worlds, options, limits, jobs, wanted)) as answers:
-                for each in chain.from_iterable(answers):
-                    report = read_line(each.line, Result).report
-                    assets[each.world] = Asset(each.world[0], each.verdict, report)
-                    if bar is not None:
-                        bar(len(assets), len(worlds))
-        except KeyboardInterrupt:
-            if not assets:
-                raise
-            write_before_the_end()
-    return {world: assets[world] for world in worlds if world in assets}
-
-
-def _nothing_compared(assets: Sequence[Asset]) -> tuple[Issue, ...]:
-    reports = [asset.report for asset in assets]
-    if any(report.summary.pairs.asked or report.answers for report in reports):
-        return ()
-    message = "no pair was checked: each file is a world of its own; --merge puts them into one"
-    return (Issue(NOTHING_TO_CHECK, "warning", None, None, message),)
-
-
 def _interrupted(not_checked: int, total: int) -> tuple[Issue, ...]:
-    if not not_checked:
-        return ()
     were = "was" if not_checked == 1 else "were"
     message = f"interrupted: {not_checked:,} of {counted(total, 'asset')} {were} not checked"
     return (Issue(INTERRUPTED, "warning", None, None, message),)
@@ -228,9 +268,10 @@ def tell_assets(seen: Overview, to: Delivery) -> None:
     """Tell on stderr what no table on standard output says, and where the reports are."""
     files = [str(target.output) for target in to.targets if target.output is not None]
     if files or to.forms != {"table"}:
-        tell_issues(seen)
+        for issue in seen.issues:
+            talk(f"satcheck: {issue_line(issue)}")
     if files and seen.total:
-        talk(f"{summary_line(seen)} Report: {', '.join(files)}")
+        talk(" ".join([summary_line(seen), *next_step(seen), f"Report: {', '.join(files)}"]))
 
 
 def asset_names(inputs: Inputs) -> Assets:
@@ -256,8 +297,7 @@ def asset_names(inputs: Inputs) -> Assets:
 def tell_foreign(worlds: Iterable[World]) -> None:
     """`kit: no reader knows 2 files: kit/a.fbx, kit/b.blend`. worlds: of `foreign_worlds`."""
     for folder, *files in worlds:
-        named = ", ".join(files[:_NAMED]) + (", ..." if len(files) > _NAMED else "")
-        talk(f"satcheck: {folder}: no reader knows {counted(len(files), 'file')}: {named}")
+        talk(f"satcheck: {folder}: no reader knows {counted(len(files), 'file')}: {listed(files)}")
 
 
 def _is_skipped(file: str) -> bool:

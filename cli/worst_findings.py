@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.key import digest
 from satcheck.audit.batch.stored import Stored
-from satcheck.audit.words import is_listed, rank
+from satcheck.audit.words import rank, severity
 from satcheck.cli.formats.assets import worst_of
 from satcheck.cli.output import cannot_write, harmless, talk, write_file
 from satcheck.cli.progress import Bar
@@ -44,14 +44,18 @@ class Illustrated(NamedTuple):
 
 
 def worst_findings(results: Iterable[Stored], top: int) -> list[Worst]:
-    """Return the worst finding of each asset, the worst first, at most `top`. Holds the reports of
-    as many."""
+    """Return the worst finding of each asset that fails, warns or is open, the worst first, at most
+    `top`. Holds the reports of as many."""
     findings = (
         Worst(min(listed, key=rank), stored)
         for stored in results
-        if (listed := [each for each in stored.asset.report.findings if is_listed(each)])
+        if (listed := [each for each in stored.asset.report.findings if _is_wrong(each)])
     )
     return worst_of(findings, top, lambda each: rank(each.finding))
+
+
+def _is_wrong(finding: Finding) -> bool:
+    return severity(finding) in ("error", "warning") or finding.undecided is not None
 
 
 def with_pictures(

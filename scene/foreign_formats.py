@@ -42,7 +42,7 @@ _ENDINGS = {
     "Universal 3D": "u3d",
     "STEP in another form": "stpz stpx stpxz",
     "IGES": "igs iges",
-    "IFC in another form": "ifcjson",
+    "IFC in another form": "ifcjson ifcxml",
     "dotbim": "bim",
     "xeokit": "xkt",
     "SolidWorks": "sldprt sldasm eprt easm",

@@ -43,31 +43,25 @@ def _is_foreign(world: World) -> bool:
     return len(world) > 1 and is_folder(world[0]) and all(map(is_foreign, world[1:]))
 
 
-def check_world(
-    world: World,
-    options: CheckOptions,
-    *,
-    hashed: bool = True,
-    known: KnownMeshes | None = None,
-) -> Asset:
+def check_world(world: World, options: CheckOptions, *, known: KnownMeshes | None = None) -> Asset:
     """Check one world. If it cannot be loaded, the report has no bodies and the error as an issue.
 
     A world with a single body passes, and so does one without a body that can collide, or with
-    pairs that rules all allow; a note says so. hashed: state the SHA-256 of the mesh files. known:
-    mesh files that stay in memory. Raises SatcheckError if the baseline cannot be read."""
+    pairs that rules all allow; a note says so. known: mesh files that stay in memory. Raises
+    SatcheckError if the baseline cannot be read."""
     file = world[0]
     with step(f"checking {file}"):
-        report = _report(world, options, hashed, known)
+        report = _report(world, options, known)
     if options.baseline is not None:
         report = _beside(report, file, Path(options.baseline))
     return asset(file, replace(report, config=options.config))
 
 
-def _report(world: World, options: CheckOptions, hashed: bool, known: KnownMeshes | None) -> Report:
+def _report(world: World, options: CheckOptions, known: KnownMeshes | None) -> Report:
     try:
-        scene = _load(world, options, hashed, known)
+        scene = _load(world, options, known)
         report = check(scene, options.settings_for(scene), least=0)
-        return with_stated_places(report, scene) if options.places else report
+        return with_stated_places(report, scene)
     except SatcheckError as error:
         issues = [
             Issue(each.code, "error", None, world[0], str(each), _line_of(each))
@@ -120,11 +114,11 @@ def _beside(report: Report, file: str, baseline: Path) -> Report:
     return beside_baseline(report, known, str(baseline), (asset_key(file, baseline),))
 
 
-def _load(world: World, options: CheckOptions, hashed: bool, known: KnownMeshes | None) -> Scene:
+def _load(world: World, options: CheckOptions, known: KnownMeshes | None) -> Scene:
     if _is_foreign(world):
         return foreign_scene(world[0], world[1:])
     _refuse_folder(world[0])
-    scene = _without_libraries(world[0], options.load(world, hashed=hashed, known=known))
+    scene = _without_libraries(world[0], options.load(world, known=known))
     is_explained = any(issue.code in _WITHOUT_BODIES for issue in scene.issues)
     if not scene.bodies and not scene.unreadable and not is_explained:
         reason = "there is no body: give a file of rules as --rules FILE"
@@ -160,20 +154,14 @@ def _refuse_folder(name: str) -> None:
         ) from None
 
 
-def unused_rules(assets: Sequence[Asset], files: Collection[str]) -> tuple[Issue, ...]:
-    """Return the issues of rules in these files that select no pair in any asset. An asset that
-    could not be loaded may need them."""
-    if not assets or any(not asset.report.bodies for asset in assets):
-        return ()
-    first, *others = (asset.report.issues for asset in assets)
-    unused = (issue for issue in first if _is_unused_rule(issue, files))
-    return tuple(issue for issue in unused if all(issue in issues for issues in others))
-
-
-def without_unused_rules(given: Asset, files: Collection[str]) -> Asset:
-    """Rules in these files are about many assets, and need not be about this one."""
-    issues = tuple(i for i in given.report.issues if not _is_unused_rule(i, files))
-    return asset(given.file, replace(given.report, issues=issues))
+def without_unused_rules(given: Asset, files: Collection[str]) -> tuple[Asset, tuple[Issue, ...]]:
+    """Return the asset without the issues of rules in these files that select no pair, and these:
+    such rules are about many assets, and need not be about this one. An asset that could not be
+    loaded may need them."""
+    unused = tuple(i for i in given.report.issues if _is_unused_rule(i, files))
+    issues = tuple(i for i in given.report.issues if i not in unused)
+    kept = asset(given.file, replace(given.report, issues=issues))
+    return kept, unused if given.report.bodies else ()
 
 
 def _is_unused_rule(issue: Issue, files: Collection[str]) -> bool:

@@ -24,12 +24,11 @@ _SHORTEST_SECONDS = 1e-3
 
 class CheckOptions(LoadOptions, frozen=True, kw_only=True):
     """settings: values of `audit.Settings` by name, lengths as given. names: what messages call
-    these lengths. places: state where scene files name the bodies of findings. baseline: a file of
-    known findings. config: what a report states of a config file."""
+    these lengths. baseline: a file of known findings. config: what a report states of a config
+    file."""
 
     settings: Mapping[str, SettingValue] = {}
     names: Mapping[str, str] = {}
-    places: bool = True
     baseline: str | None = None
     config: StatedConfig | None = None
 

@@ -133,10 +133,13 @@ class ResultsFile:
         self._end += len(text)
         self._lines |= added
 
-    def finish(self, worlds: Iterable[World]) -> None:
-        """Puts the results of these worlds, in the order of their names, at the path."""
+    def finish(self, worlds: Iterable[World] | None = None) -> None:
+        """Puts the results of these worlds, in the order of their names, at the path. None: of all
+        that have one."""
         try:
-            replace_file(self.path, map(self._read, sorted(worlds)))
+            replace_file(
+                self.path, map(self._read, sorted(self._lines if worlds is None else worlds))
+            )
             self._added.truncate(0)
         except OSError as error:
             raise self._cannot_write(error) from None

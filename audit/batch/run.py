@@ -14,6 +14,7 @@ from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.results import Head, ResultsFile
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.report.assets import AssetVerdict
+from satcheck.report.report import Issue
 
 # Gives the answers for worlds, in any order.
 Engine = Callable[[Sequence[World]], Generator[list[Answer]]]
@@ -28,15 +29,22 @@ _DIGESTS = 100_000
 
 
 class Tally(Struct):
-    """verdicts: the number of worlds with each so far; kept: of an earlier run."""
+    """verdicts: the number of worlds with each so far; kept: of an earlier run. unused: issues of
+    rules that no world so far needs; None: no world is known."""
 
     total: int
     kept: int = 0
     verdicts: Counter[AssetVerdict] = field(default_factory=Counter)
+    unused: tuple[Issue, ...] | None = None
 
     @property
     def done(self) -> int:
         return self.verdicts.total()
+
+    def note(self, verdict: AssetVerdict, unused: tuple[Issue, ...] = ()) -> None:
+        self.verdicts[verdict] += 1
+        known = unused if self.unused is None else self.unused
+        self.unused = tuple(issue for issue in known if issue in unused)
 
 
 def run(
@@ -55,12 +63,13 @@ def run(
         if head.files in waiting:
             del waiting[head.files]
             tally.kept += 1
-            tally.verdicts[head.verdict] += 1
+            tally.note(head.verdict)
     progress(tally)
     with closing(engine(tuple(waiting))) as coming:
         for answers in coming:
             results.append((each.world, each.line) for each in answers)
-            tally.verdicts.update(each.verdict for each in answers)
+            for each in answers:
+                tally.note(each.verdict, each.unused)
             progress(tally)
     results.finish(worlds)
     return tally

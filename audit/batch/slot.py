@@ -111,8 +111,7 @@ class Slot:
     def _ask(
         self, worlds: Sequence[World], left_out: Mapping[str, Loss] | None = None
     ) -> list[Answer]:
-        fetches = self._wanted.kept and any(map(is_remote, worlds))
-        copies = self._folder_of_copies() if fetches else None
+        copies = self._folder_of_copies() if any(map(is_remote, worlds)) else None
         chunk = Chunk(tuple(worlds), self._options, self._limits, self._wanted, left_out, copies)
         request = request_of(chunk)
         return answers_in(self._worker.ask(request, seconds=self._limits.seconds), worlds)

@@ -25,6 +25,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
 from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result
 from satcheck.report.json import line_of
+from satcheck.report.report import Issue
 from satcheck.scene.mesh_files import KnownMeshes
 from satcheck.scene.opening import FilesRead, files_read, note
 
@@ -47,11 +48,9 @@ _digests = Digests()
 
 class Wanted(Struct, frozen=True):
     """The wishes for a check beside its answer. kept: the result is for a file that a later run
-    resumes: it has its inputs, its key and no times. hashed: state the SHA-256 of the mesh files.
-    threads: for one check, as the other slots have the other cores."""
+    resumes, which has no times. threads: for one check, as the other slots have the other cores."""
 
     kept: bool = True
-    hashed: bool = True
     threads: int = 1
 
 
@@ -68,11 +67,16 @@ class Chunk(Struct, frozen=True):
 
 
 class Answer(Struct, frozen=True):
-    """line: the Result as a line of JSON."""
+    """line: the Result as a line of JSON. unused: issues of shared rules that it does not need."""
 
     world: World
     verdict: AssetVerdict
     line: bytes
+    unused: tuple[Issue, ...] = ()
+
+
+# An answer without its world.
+_Made = tuple[AssetVerdict, bytes, tuple[Issue, ...]]
 
 
 def request_of(chunk: Chunk) -> bytes:
@@ -82,8 +86,8 @@ def request_of(chunk: Chunk) -> bytes:
 
 def answers_in(reply: bytes, worlds: Sequence[World]) -> list[Answer]:
     """Yield the answers of these worlds, in this order."""
-    verdicts_and_lines = msgspec.msgpack.decode(reply, type=list[tuple[AssetVerdict, bytes]])
-    return [Answer(world, *each) for world, each in zip(worlds, verdicts_and_lines, strict=True)]
+    made = msgspec.msgpack.decode(reply, type=list[_Made])
+    return [Answer(world, *each) for world, each in zip(worlds, made, strict=True)]
 
 
 def serve(request: bytes) -> bytes:
@@ -97,19 +101,9 @@ def serve(request: bytes) -> bytes:
     if chunk.copies is not None:
         make_room(Path(chunk.copies))
     with careful(care):
-        if chunk.wanted.kept:
-            terms = terms_of(options, chunk.limits if chunk.left_out else None)
-            made = [_result(world, options, terms, chunk.copies) for world in chunk.worlds]
-        else:
-            made = [_result_of_now(world, options, chunk.wanted) for world in chunk.worlds]
+        terms = terms_of(options, chunk.limits if chunk.left_out else None)
+        made = [_result(world, options, terms, chunk) for world in chunk.worlds]
     return msgspec.msgpack.encode(made)
-
-
-def _result_of_now(
-    world: World, options: CheckOptions, wanted: Wanted
-) -> tuple[AssetVerdict, bytes]:
-    checked = check_world(world, options, hashed=wanted.hashed, known=_meshes)
-    return checked.verdict, line_of(result_of(world, checked), timings=True)
 
 
 def _tell(step: str) -> None:
@@ -123,48 +117,47 @@ def _end() -> NoReturn:
     os._exit(1)
 
 
-def _result(
-    world: World, options: CheckOptions, terms: str, folder: str | None
-) -> tuple[AssetVerdict, bytes]:
-    """folder: for copies of remote files."""
+def _result(world: World, options: CheckOptions, terms: str, chunk: Chunk) -> _Made:
     copies = None
-    if folder is not None and is_remote(world):
-        copies = Copies(Path(folder), world, anywhere=options.allow_outside)
+    if chunk.copies is not None and is_remote(world):
+        copies = Copies(Path(chunk.copies), world, anywhere=options.allow_outside)
         try:
-            checked, files = _checked_copies(world, options, copies)
+            checked, unused, files = _checked_copies(world, options, copies)
         except SatcheckError as error:  # of the fetch: the next run tries again
             lost = result_of(world, unreadable_asset(world[0], error))
-            return lost.verdict, line_of(lost)
+            return lost.verdict, line_of(lost), ()
     else:
-        checked, files = _checked(world, options)
+        checked, unused, files = _checked(world, options)
     inputs = inputs_of(files, partial(_digests.digest, files))
     inputs = inputs if copies is None else copies.inputs(inputs)
     lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
     is_known = files.are_certain() and not lacking
     key = key_of(world, terms, inputs, options.folders) if is_known else None
-    line = line_of(result_of(world, checked, inputs, key))
-    return checked.verdict, line if copies is None else copies.with_urls(line)
+    line = line_of(result_of(world, checked, inputs, key), timings=not chunk.wanted.kept)
+    return checked.verdict, line if copies is None else copies.with_urls(line), unused
 
 
-def _checked_copies(world: World, options: CheckOptions, copies: Copies) -> tuple[Asset, FilesRead]:
+def _checked_copies(
+    world: World, options: CheckOptions, copies: Copies
+) -> tuple[Asset, tuple[Issue, ...], FilesRead]:
     """Repeats the check as long as it looks for files that can be fetched. Raises SatcheckError."""
     paths = tuple(map(copies.path, world))
     options = replace(options, folders=())  # those of this machine are not around a remote scene
     copies.fetch(paths)
     for _ in range(_MOST_ROUNDS):
-        checked, files = _checked(paths, options)
+        checked, unused, files = _checked(paths, options)
         if not copies.fetch(files):
-            return checked, files
+            return checked, unused, files
     reason = f"names files that name files, and so on, {_MOST_ROUNDS} times: copy it and check that"
     raise SatcheckError("too-many-files", reason, file=world[0])
 
 
-def _checked(world: World, options: CheckOptions) -> tuple[Asset, FilesRead]:
+def _checked(world: World, options: CheckOptions) -> tuple[Asset, tuple[Issue, ...], FilesRead]:
     with files_read() as files:
         for name in world:
             note(name)
         checked = check_world(world, options, known=_meshes)
-    return without_unused_rules(checked, options.rules), files
+    return *without_unused_rules(checked, options.rules), files
 
 
 def result_of(

@@ -92,8 +92,8 @@ class StoredResults:
     file the last result of a world counts. In several
     files the same key means the same answer; of different ones that of the last file counts.
 
-    expected: worlds that need a result. issues: what is wrong with the files; least: the verdict
-    that this allows at best. Use it in a `with` statement. Raises SatcheckError: `unreadable-file`.
+    expected: worlds that need a result. issues: what is wrong with the files. Use it in a `with`
+    statement. Raises SatcheckError: `unreadable-file`.
     """
 
     def __init__(self, paths: Sequence[Path], expected: Iterable[World] = ()) -> None:
@@ -102,7 +102,6 @@ class StoredResults:
         self._stack = ExitStack()
         self._count = 0
         self.issues: tuple[Issue, ...] = ()
-        self.least: AssetVerdict = "pass"
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
@@ -110,7 +109,6 @@ class StoredResults:
             self._files = [_File(path, stack) for path in files]
             self._stack = stack.pop_all()
         self.issues = (*(issue for file in self._files for issue in file.issues), *self._scan())
-        self.least = least_of(self.issues)
         return self
 
     def __exit__(self, *_: object) -> None:

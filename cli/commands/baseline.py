@@ -22,11 +22,12 @@ from satcheck.audit.batch.stored import ENDINGS, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli.click_classes import HELP_NAMES, Group
 from satcheck.cli.output import Document, issue_line, talk, write_file
-from satcheck.cli.stated_scene import read_report
+from satcheck.cli.stated_scene import read_stored
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import Baseline, KnownFinding, KnownUndecided
 from satcheck.report.json import document as json_document
 from satcheck.report.report import Report
+from satcheck.report.samples import SamplesReport
 from satcheck.scene.opening import exists
 
 file_argument = click.argument("file", metavar="BASELINE", type=click.Path(path_type=Path))
@@ -186,9 +187,12 @@ def _named_reports(paths: Sequence[Path], file: Path) -> Iterator[tuple[str, Rep
         if path.suffix.lower() in ENDINGS:
             yield from _of_results(path, file)
             continue
-        document = read_report(path)
+        document = read_stored(path)
         if isinstance(document, Report):
             yield "", document
+        elif isinstance(document, SamplesReport):
+            reason = "a report of several poses has no findings that a baseline knows"
+            raise SatcheckError("bad-report", reason, file=str(path))
         else:
             for asset in document.assets:
                 yield asset_key(asset.file, file), asset.report

@@ -2,52 +2,37 @@
 
 from __future__ import annotations
 
-import os
-import shlex
 import signal
 from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext
-from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.check_world import foreign_worlds
 from satcheck.audit.batch.manifest import Shard, parse_shard, read_manifest
-from satcheck.audit.batch.options import CheckOptions, Limits, World
-from satcheck.audit.batch.remote import at, is_remote, is_url, local_results
-from satcheck.audit.batch.results import PART, ResultsFile
-from satcheck.audit.batch.run import ENGINES, Engine, Tally, run
+from satcheck.audit.batch.options import Limits, World
+from satcheck.audit.batch.remote import at, is_remote, is_url
+from satcheck.audit.batch.run import ENGINES
 from satcheck.audit.batch.slot_server import Answer
-from satcheck.audit.batch.stored import StoredResults
-from satcheck.audit.words import counted
-from satcheck.cli import exit_codes, option
+from satcheck.cli import option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config import stated_config
 from satcheck.cli.format_option import Target, format_option, targets_of
-from satcheck.cli.formats.assets import overview
 from satcheck.cli.formats.registry import REPORTS, Format
 from satcheck.cli.inputs import Inputs, refuse_early, typed
-from satcheck.cli.interrupts import write_before_the_end
-from satcheck.cli.output import Document, talk
-from satcheck.cli.progress import Bar
+from satcheck.cli.output import talk
 from satcheck.cli.rendering import Delivery, refuse_certificate
 from satcheck.cli.worlds import (
-    Drawing,
     asset_names,
-    check_options,
     check_worlds,
-    deliver_assets,
-    tell_assets,
     tell_foreign,
 )
 from satcheck.core.errors import SatcheckError
 from satcheck.core.plugins import function_at
-from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.scene.asset_files import NO_ASSETS
 from satcheck.scene.changed_assets import changed_since
 from satcheck.scene.files.readers import mesh_reader
@@ -173,7 +158,8 @@ def command(
         files.append(Path(results))
     _refuse(worlds, inputs, files, baseline)
     if results is None:
-        _refuse_without_results(worlds, resume=resume, engine=engine)
+        if resume:
+            raise click.UsageError("--resume: name a file for the results, -o results.jsonl")
         forms = {target.form for target in targets}
         refuse_certificate(forms, wanted=options["certificate"])
     config = stated_config(click.get_current_context())
@@ -186,21 +172,20 @@ def command(
         tell_foreign(set(worlds).intersection(foreign))
     limits = Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"]))
     delivery = Delivery(targets, quiet, exit_zero, options["timings"], top)
-    if results is None:
-        complete = since is None and shard.count == 1
-        return check_worlds(
-            worlds, inputs, options, baseline, delivery, config, limits, complete=complete
-        )
-    terms = check_options(inputs, options, baseline, config)
-    check = _engine(engine, scheduler, options["jobs"])
-    tally = _run(
-        worlds, terms, limits, partial(check, options=terms, limits=limits), results, resume
+    return check_worlds(
+        worlds,
+        inputs,
+        options,
+        baseline,
+        delivery,
+        config,
+        limits,
+        complete=since is None and shard.count == 1,
+        results=results,
+        resume=resume,
+        engine=_engine(engine),
+        scheduler=scheduler,
     )
-    if not quiet:
-        talk(_summary(tally, results, is_alone=not targets))
-    if targets:
-        _deliver(Path(results), delivery, allow_outside=inputs.allow_outside)
-    return exit_codes.for_counts(tally.verdicts, exit_zero=exit_zero)
 
 
 def _targets(form: str | None, outputs: Sequence[str]) -> tuple[tuple[Target, ...], str | None]:
@@ -216,49 +201,6 @@ def _targets(form: str | None, outputs: Sequence[str]) -> tuple[tuple[Target, ..
         raise click.UsageError("results go to one file, for --resume: name it, -o results.jsonl")
     others = tuple(target for target in targets if target.form != "results")
     return others, str(results[0]) if results else None
-
-
-def _run(
-    worlds: Sequence[World],
-    terms: CheckOptions,
-    limits: Limits,
-    check: Engine,
-    output: str,
-    resume: bool,
-) -> Tally:
-    """Check the assets into the file of results."""
-    with _local(output) as path, ResultsFile(path) as results, Bar("assets") as bar:
-        if not resume:
-            _refuse_existing(results, output)
-        tally = Tally(len(worlds))
-
-        def show(reached: Tally) -> None:
-            nonlocal tally
-            tally = reached
-            if bar is not None:
-                bar(tally.done, tally.total, _verdicts(tally, but="pass"))
-
-        try:
-            run(worlds, terms, limits, check, results, show)
-        except (KeyboardInterrupt, SatcheckError):
-            if is_url(output):
-                write_before_the_end()
-            if tally.done:
-                place = output if is_url(output) else str(results.part)
-                talk(f"satcheck: {_recorded(tally, place)}")
-            raise
-    return tally
-
-
-def _deliver(results: Path, delivery: Delivery, *, allow_outside: bool) -> None:
-    """Write the other documents from the results."""
-    with StoredResults([results]) as stored:
-        found = (each.asset for each in stored)
-        seen = overview(found, stored.issues, least=stored.least, top=delivery.top)
-        drawing = Drawing(allow_outside=allow_outside)
-        deliver_assets(Document(), seen, stored, delivery, drawing)
-        if not delivery.quiet:
-            tell_assets(seen, delivery)
 
 
 def _changed(revision: str, worlds: Sequence[World], shared: Sequence[Path]) -> Sequence[World]:
@@ -302,28 +244,6 @@ def _refuse(
             raise click.UsageError(f"--read {said}: no reader of these files has this option")
 
 
-def _refuse_without_results(worlds: Sequence[World], *, resume: bool, engine: str) -> None:
-    wanted = {
-        "--resume": resume,
-        f"--engine {engine}": engine != "local",
-        "assets at URLs": any(map(is_remote, worlds)),
-    }
-    for what in (what for what, is_wanted in wanted.items() if is_wanted):
-        raise click.UsageError(f"{what}: name a file for the results, -o results.jsonl")
-
-
-def _refuse_existing(results: ResultsFile, output: str) -> None:
-    if (existing := results.existing()) is not None:
-        reason = "has results: --resume keeps those that still hold; or remove the file"
-        named = output if is_url(output) else str(existing)
-        raise SatcheckError("results-exist", reason, file=named)
-
-
-def _local(output: str) -> AbstractContextManager[Path]:
-    """The file that the run writes."""
-    return local_results(output, PART) if is_url(output) else nullcontext(Path(output))
-
-
 def _worlds(
     near: Sequence[World], inputs: Inputs, manifest: str | None, shard: Shard
 ) -> Sequence[World]:
@@ -353,37 +273,8 @@ def _meant_by(url: str) -> list[str]:
     return matching
 
 
-def _engine(name: str, scheduler: str | None, jobs: int) -> Callable[..., Generator[list[Answer]]]:
+def _engine(name: str) -> Callable[..., Generator[list[Answer]]]:
     try:
-        engine = function_at(ENGINES[name])
+        return cast("Callable[..., Generator[list[Answer]]]", function_at(ENGINES[name]))
     except ImportError:
         raise click.UsageError("--engine dask needs Dask: pip install 'satcheck[dask]'") from None
-    if scheduler is None:
-        return partial(engine, slots=jobs or os.cpu_count() or 1)
-    return partial(engine, scheduler=scheduler)
-
-
-def _recorded(tally: Tally, place: str) -> str:
-    done = f"{tally.done:,} of {counted(tally.total, 'asset')} are recorded in {place}"
-    return f"{done}: the same command with --resume checks the others"
-
-
-def _verdicts(tally: Tally, but: str = "") -> str:
-    """`1 error, 5 pass`"""
-    parts = [
-        f"{tally.verdicts[verdict]:,} {verdict}"
-        for verdict in ASSET_VERDICTS
-        if tally.verdicts[verdict] and verdict != but
-    ]
-    return ", ".join(parts)
-
-
-def _summary(tally: Tally, output: str, *, is_alone: bool) -> str:
-    """is_alone: no other document shows the results."""
-    kept = f" ({tally.kept:,} kept)" if tally.kept else ""
-    verdicts = f": {_verdicts(tally)}{kept}" if tally.done else ""
-    shows = ""
-    if is_alone and tally.verdicts["pass"] < tally.done and not is_url(output):
-        line = shlex.join(["satcheck", "view", output, "-o", "gallery.html"])
-        shows = f"\nNext: {line} shows the worst findings."
-    return f"{counted(tally.total, 'asset')}{verdicts}. Results: {output}{shows}"

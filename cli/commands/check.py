@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 from msgspec.structs import replace
@@ -37,7 +37,6 @@ from satcheck.cli.rendering import (
     refuse_of_worlds,
     refuse_outputs,
 )
-from satcheck.report.baseline import Baseline
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 from satcheck.scene.files.readers import readers, robots
@@ -51,18 +50,6 @@ SMALL_TRIANGLES = 1000
 # Objects made between two searches for cycles: of what a check makes almost none is in one.
 COLLECT_AFTER = 50_000
 WIDTH = click.FloatRange(0, 1, min_open=True, max_open=True)
-
-
-class _Known(NamedTuple):
-    """The findings of a baseline."""
-
-    path: Path
-    baseline: Baseline
-
-    def beside(self, report: Report, files: Sequence[str]) -> Report:
-        """files: of the world that was checked."""
-        names = names_in_baseline(files, self.path)
-        return beside_baseline(report, self.baseline, str(self.path), names)
 
 
 class _DefaultContext(click.Context):
@@ -89,7 +76,7 @@ class _DefaultCommand(Command):
             formatter.write_dl(
                 [
                     ("0", "everything was checked, and no pair fails"),
-                    ("1", "a pair overlaps more than rules allow, or is closer than its clearance"),
+                    ("1", "a pair overlaps more than is allowed, or is closer than its clearance"),
                     ("2", "wrong usage, an unreadable input, or an internal error"),
                     ("3", "no pair is known to fail, but not everything could be checked"),
                     ("130", "interrupted"),
@@ -242,7 +229,7 @@ def command(
 
         refuse_of_worlds(to.forms, inputs, explain=explain, **options)
         return check_worlds(worlds, inputs, options, baseline, to, config, compares=True)
-    known = None if baseline is None else _Known(baseline, read_baseline(baseline))
+    known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed="json" in to.forms)
     _collect_garbage(scene)
@@ -251,17 +238,15 @@ def command(
 
         for advice in about_assets(inputs.paths, scene):
             talk(str(advice))
-    failed = any(issue.severity == "error" for issue in scene.issues)
-    if failed and len(scene.bodies) < 2 and to.forms == {"table"}:
-        return exit_codes.ERROR  # every pair would be an empty row, and the error is told
     scene, poses = _placed(scene, inputs)
     settings = {**options, **inputs.limits}
     result: Report | SamplesReport
     if poses is None:
         asked = settings_of(settings, scene)
         result = _check(scene, asked if known is None else measuring(asked))
-        if known is not None:
-            result = known.beside(result, inputs.paths)
+        if baseline is not None and known is not None:
+            names = names_in_baseline(inputs.paths, baseline)
+            result = beside_baseline(result, known, str(baseline), names)
         if to.forms != {"table"}:
             result = with_stated_places(result, scene)
     else:
@@ -270,7 +255,7 @@ def command(
     if config is not None:
         result = replace(result, config=config)
     deliver(document, result, scene, to)
-    return exit_codes.for_verdict(result.summary.verdict, result.issues, exit_zero=exit_zero)
+    return exit_codes.for_report(result, exit_zero=exit_zero)
 
 
 def _collect_garbage(scene: Scene) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib import import_module
-from typing import Any, cast
+from typing import cast
 
 import click
 from click.core import ParameterSource
 
 from satcheck.cli.click_classes import HELP_NAMES, Command, Group
-from satcheck.cli.config import COMMANDS, config_of, configurable, is_from_config
+from satcheck.cli.config import COMMANDS, config_of, configurable
 from satcheck.cli.formats.summary import toml
 from satcheck.cli.output import Document
 
@@ -41,41 +41,21 @@ def show(arguments: Sequence[str]) -> None:
         name, *rest = rest
     called = import_module(f"satcheck.cli.commands.{name}").command
     with cast("click.Command", called).make_context(f"satcheck {name}", rest) as ctx:
-        Document().write("".join(_lines(ctx)))
+        file = config_of(ctx)
+        rows = [_row(ctx, key, option) for key, option in configurable(ctx.command).items()]
+        width = max(len(value) for value, _ in rows)
+        head = f"# {file.path}\n" if file else "# no config file\n"
+        lines = (f"{value:{width}}  # {source}\n" for value, source in rows)
+        Document().write("".join([head, *lines]))
 
 
-def _lines(ctx: click.Context) -> list[str]:
-    file = config_of(ctx)
-    options = configurable(ctx.command)
-    rows = [
-        (f"{key} = {_shown(ctx, key, option)}", _source(ctx, key, option))
-        for key, option in options.items()
-    ]
-    width = max(len(value) for value, _ in rows)
-    head = f"# {file.path}\n" if file else "# no config file\n"
-    return [head, *(f"{value:{width}}  # {source}\n" for value, source in rows)]
-
-
-def _shown(ctx: click.Context, key: str, option: click.Option) -> str:
-    file = config_of(ctx)
-    if file is not None and is_from_config(ctx, option):
-        return toml(file.values[key])
-    return _in_words(option, ctx.params.get(option.name or "", option.get_default(ctx)))
-
-
-def _in_words(option: click.Option, value: Any) -> str:
-    if option.flag_value is False:  # --no-timings
-        return toml(not value)
-    if value is None or value == () or value == {}:
-        return "not set"
-    if isinstance(value, bool | int | float):
-        return toml(value)
-    return toml(tuple(map(str, value))) if isinstance(value, tuple) else toml(str(value))
-
-
-def _source(ctx: click.Context, key: str, option: click.Option) -> str:
-    source = ctx.get_parameter_source(option.name or "")
-    file = config_of(ctx)
+def _row(ctx: click.Context, key: str, option: click.Option) -> tuple[str, str]:
+    """Return `jobs = 2`, and `satcheck.toml:3`."""
+    file, source = config_of(ctx), ctx.get_parameter_source(option.name or "")
     if file is not None and source is ParameterSource.DEFAULT_MAP:
-        return file.where(key)
-    return "command line" if source is ParameterSource.COMMANDLINE else "default"
+        return f"{key} = {toml(file.values[key])}", file.where(key)
+    value = ctx.params.get(option.name or "", option.get_default(ctx))
+    if option.flag_value is False:  # --no-timings
+        value = not value
+    said = "not set" if value is None or value in ((), {}) else toml(value)
+    return f"{key} = {said}", "command line" if source is ParameterSource.COMMANDLINE else "default"

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-from msgspec import Struct
 from msgspec.structs import astuple, replace
 
 from satcheck.audit.summary import tool
@@ -32,26 +31,14 @@ from satcheck.report.decomposition import (
     Remark,
 )
 from satcheck.report.report import Issue
-from satcheck.scene import Body, Scene, written_meshes
+from satcheck.scene import Body, written_meshes
 from satcheck.scene.units import unit_of
 
 _FILES = ", ".join(written_meshes.FORMATS)
 
 
-class _Parts(Struct, frozen=True):
-    """A body, and its convex parts in world coordinates or why there are none."""
-
-    body: Body
-    result: Decomposition | SatcheckError
-
-    @property
-    def has_parts(self) -> bool:
-        return isinstance(self.result, Decomposition)
-
-    def named(self) -> Iterator[written_meshes.Part]:
-        if isinstance(self.result, Decomposition):
-            for number, part in enumerate(self.result.parts, 1):
-                yield f"{self.body.id}-{number}", part.to_mesh()
+# A body, and its convex parts in world coordinates or why there are none.
+_Split = tuple[Body, Decomposition | SatcheckError]
 
 
 @click.command("decompose", cls=Command, context_settings=HELP_NAMES)
@@ -117,27 +104,36 @@ def command(
     if not scene.bodies and form == "table":
         return exit_codes.ERROR  # the error is told
     store = user_cache()
-    bodies = []
+    bodies: list[_Split] = []
     with Bar("bodies") as bar:
         for number, body in enumerate(scene.bodies, 1):
             with step(f"splitting {body.id}, {number} of {len(scene.bodies)}"):
-                bodies.append(_Parts(body, _split(body, threshold, seed, seconds, store)))
+                bodies.append((body, _split(body, threshold, seed, seconds, store)))
             if bar is not None:
                 bar(number, len(scene.bodies))
-    parts = [part for each in bodies for part in each.named()]
-    if parts_out is not None and parts:
-        write_file(parts_out, written_meshes.written(parts, parts_out.suffix.lower(), scene.units))
-    for each in bodies:
-        if isinstance(each.result, SatcheckError):
-            said = f"satcheck: error: {each.body.id}: {each.result} [{each.result.code}]"
-            talk(harmless(said))
-    settings = DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds)
-    report = _report(bodies, scene, settings, parts_out)
-    deliver(document, report, form, output, partial(_table, bodies, scene, parts_out))
+    parts = [part for each in bodies for part in _named(*each)]
+    rounding = None
+    if parts_out is not None:
+        ending = parts_out.suffix.lower()
+        rounding = written_meshes.rounding(parts, ending)
+        if parts:
+            write_file(parts_out, written_meshes.written(parts, ending, scene.units))
+    report = DecompositionReport(
+        tool=tool(),
+        units=scene.units,
+        settings=DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds),
+        output=None if parts_out is None else parts_out.as_posix(),
+        rounding=rounding,
+        bodies=tuple(_body_report(*each) for each in bodies),
+        issues=tuple(Issue(*astuple(issue)) for issue in scene.issues),
+    )
+    failures = [(each.id, each.failure) for each in report.bodies if each.failure is not None]
+    for id_, failure in failures:
+        talk(harmless(f"satcheck: error: {id_}: {failure.message} [{failure.code}]"))
+    deliver(document, report, form, output, partial(_table, report))
     if scene.unreadable or not parts:
         return exit_codes.ERROR
-    whole = all(each.has_parts for each in bodies)
-    return exit_codes.CLEAN if whole else exit_codes.INCOMPLETE
+    return exit_codes.INCOMPLETE if failures else exit_codes.CLEAN
 
 
 def _split(
@@ -157,35 +153,22 @@ def _split(
         return error
 
 
-def _rounding(bodies: list[_Parts], output: Path | None) -> float | None:
-    """Return the rounding of the file that was written."""
-    parts = [part for each in bodies for part in each.named()]
-    return None if output is None else written_meshes.rounding(parts, output.suffix.lower())
+def _named(body: Body, result: Decomposition | SatcheckError) -> Iterator[written_meshes.Part]:
+    if isinstance(result, Decomposition):
+        for number, part in enumerate(result.parts, 1):
+            yield f"{body.id}-{number}", part.to_mesh()
 
 
-def _report(
-    bodies: list[_Parts], scene: Scene, settings: DecompositionOptions, output: Path | None
-) -> DecompositionReport:
-    return DecompositionReport(
-        tool=tool(),
-        units=scene.units,
-        settings=settings,
-        output=None if output is None else output.as_posix(),
-        rounding=_rounding(bodies, output),
-        bodies=tuple(map(_body_report, bodies)),
-        issues=tuple(Issue(*astuple(issue)) for issue in scene.issues),
-    )
-
-
-def _body_report(parts: _Parts) -> DecomposedBody:
-    result, mesh = parts.result, parts.body.file
-    body = DecomposedBody(id=parts.body.id, file=mesh.path, triangles=mesh.mesh.triangle_count)
+def _body_report(body: Body, result: Decomposition | SatcheckError) -> DecomposedBody:
+    mesh = body.file
+    report = DecomposedBody(id=body.id, file=mesh.path, triangles=mesh.mesh.triangle_count)
     if isinstance(result, SatcheckError):
-        return replace(body, failure=Remark(result.code, str(result)))
+        return replace(report, failure=Remark(result.code, str(result)))
     return replace(
-        body,
+        report,
         parts=tuple(
-            Part(name, part.vertex_count, part.triangle_count) for name, part in parts.named()
+            Part(name, part.vertex_count, part.triangle_count)
+            for name, part in _named(body, result)
         ),
         outside=result.outside,
         missing=result.missing,
@@ -195,60 +178,39 @@ def _body_report(parts: _Parts) -> DecomposedBody:
     )
 
 
-def _table(bodies: list[_Parts], scene: Scene, output: Path | None, page: Page) -> str:
-    unit = unit_of(scene.units)
+def _table(report: DecompositionReport, page: Page) -> str:
+    unit = unit_of(report.units)
     named = f" ({unit})" if unit else ""
-    rows = [
-        (
-            each.body.id,
-            f"{each.body.file.mesh.triangle_count:,}",
-            f"{len(each.result.parts):,}",
-            _error(each.result.outside),
-            _error(each.result.missing),
-            "cached" if each.result.from_cache else duration(each.result.seconds * 1e6),
-        )
-        for each in bodies
-        if isinstance(each.result, Decomposition)
-    ]
-    lines = []
-    if rows:
-        body, *figures = zip(*rows, strict=True)
-        names = ("triangles", "parts", f"parts stick out{named}", f"mesh sticks out{named}", "time")
-        columns = [Column("body", body, named=True)]
-        columns += [
-            Column(name, cells, right=True, folds=True)
-            for name, cells in zip(names, figures, strict=True)
-        ]
-        lines += table(columns, page)
-    lines += fitted_each((*_remarks(bodies, scene), _summary(bodies, output, unit)), page)
-    return joined(lines, page)
+    made = [body for body in report.bodies if body.failure is None]
+    cells = {
+        "triangles": [f"{body.triangles:,}" for body in made],
+        "parts": [f"{len(body.parts or ()):,}" for body in made],
+        f"parts stick out{named}": [_error(body.outside) for body in made],
+        f"mesh sticks out{named}": [_error(body.missing) for body in made],
+        "time": ["cached" if b.from_cache else duration((b.seconds or 0.0) * 1e6) for b in made],
+    }
+    columns = [Column("body", tuple(body.id for body in made), named=True)]
+    columns += [Column(key, tuple(own), right=True, folds=True) for key, own in cells.items()]
+    lines = table(columns, page) if made else []
+    said = [f"note: {b.id}: {note.message} [{note.code}]" for b in made for note in b.notes or ()]
+    said += [issue_line(issue) for issue in report.issues if issue.severity == "warning"]
+    return joined([*lines, *fitted_each([*said, _summary(report, made, unit)], page)], page)
 
 
-def _error(length: float) -> str:
-    """Measured as an upper bound."""
-    return "0" if length == 0 else f"<= {at_most(length)}"
+def _error(length: float | None) -> str:
+    """Return a measured upper bound."""
+    return f"<= {at_most(length)}" if length else "0"
 
 
-def _remarks(bodies: list[_Parts], scene: Scene) -> Iterator[str]:
-    for each in bodies:
-        if isinstance(each.result, Decomposition):
-            for note in each.result.notes:
-                yield f"note: {each.body.id}: {note.message} [{note.code}]"
-    for issue in scene.issues:
-        if issue.severity == "warning":
-            yield issue_line(issue)
-
-
-def _summary(bodies: list[_Parts], output: Path | None, unit: str | None) -> str:
-    made = [each.result for each in bodies if isinstance(each.result, Decomposition)]
-    parts = sum(len(result.parts) for result in made)
+def _summary(report: DecompositionReport, made: list[DecomposedBody], unit: str | None) -> str:
+    parts = sum(len(body.parts or ()) for body in made)
     whole = f"{counted(len(made), 'body', 'bodies')}, {counted(parts, 'convex part')}."
-    if failed := len(bodies) - len(made):
+    if failed := len(report.bodies) - len(made):
         whole += f" {counted(failed, 'body has', 'bodies have')} none."
-    if output is None or not parts:
+    if report.output is None or not parts:
         return whole
-    whole += f" Written to {output}"
-    error = _rounding(bodies, output)
-    if not error:
+    whole += f" Written to {report.output}"
+    if not report.rounding:
         return f"{whole}."
-    return f"{whole}, whose 32-bit numbers move a vertex by {with_unit(at_most(error), unit)}."
+    error = with_unit(at_most(report.rounding), unit)
+    return f"{whole}, whose 32-bit numbers move a vertex by {error}."

@@ -111,7 +111,7 @@ def command(
         talk(f"note: to read {scene_out} give --allow-outside, because of {stray}")
     if scene_out is not None and scene.robots:
         talk(f"note: {scene_out} has no joints: the bodies stand where they were moved")
-    return exit_codes.for_verdict(report.summary.verdict, report.issues, exit_zero=False)
+    return exit_codes.for_verdict(report.summary.verdict, report.issues)
 
 
 def _refuse_output(inputs: Inputs, moved: Path) -> None:

@@ -21,6 +21,7 @@ from satcheck.report.schema import schema_of
 from satcheck.report.suggestions import SuggestionsReport
 from satcheck.report.tradeoff import TradeoffReport
 from satcheck.report.verification import VerificationReport
+from satcheck.scene.units import LENGTH_PATTERN
 
 STRUCTS: dict[str, type[Struct]] = {
     "assets": AssetsReport,
@@ -35,9 +36,6 @@ STRUCTS: dict[str, type[Struct]] = {
     "verification": VerificationReport,
 }
 DOCUMENTS = ("report", *sorted({"config", "scene", *STRUCTS} - {"report"}))
-
-
-_PATTERN_OF_LENGTH = r"^[0-9.]+([eE][+-]?[0-9]+)?\s*[a-zA-Z]*$"
 
 
 @click.command("schema", cls=Command, context_settings=HELP_NAMES)
@@ -91,7 +89,7 @@ def _kind(kind: click.ParamType[Any]) -> dict[str, Any]:
     if isinstance(kind, click.IntRange | click.FloatRange):
         return {"type": "integer" if isinstance(kind, click.IntRange) else "number"} | _range(kind)
     if isinstance(kind, click.types.FuncParamType):  # a length
-        return {"type": ["number", "string"], "minimum": 0, "pattern": _PATTERN_OF_LENGTH}
+        return {"type": ["number", "string"], "minimum": 0, "pattern": LENGTH_PATTERN}
     return {"type": "string"}
 
 

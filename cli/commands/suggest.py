@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Mapping, Sequence
+from contextlib import closing
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +14,9 @@ import click
 from click.core import ParameterSource
 from msgspec.structs import replace
 
+from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import Limits
+from satcheck.audit.batch.slot_server import Wanted
 from satcheck.audit.settings import Settings
 from satcheck.audit.suggest import MEASURED, Suggestions, suggest, suggestions_of
 from satcheck.cli import exit_codes, option, scene_option
@@ -25,8 +29,11 @@ from satcheck.cli.option import settings_of
 from satcheck.cli.output import Document, issue_line, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
-from satcheck.cli.worlds import asset_names, check_each, check_options
+from satcheck.cli.worlds import asset_names, check_options
+from satcheck.report.assets import Result
 from satcheck.report.json import document as json_document
+from satcheck.report.json import read_line
+from satcheck.report.report import Report
 from satcheck.scene import Scene
 from satcheck.scene.opening import is_folder
 from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed
@@ -75,7 +82,7 @@ def command(
     error; 3, something could not be decided.
     """
     inputs = Inputs.taken_from(options)
-    named = form_of(form, output, (), FORMATS)
+    named = form_of(form, output, FORMATS)
     form = named if named in FORMATS else "toml"
     refuse_early(inputs, output)
     document = Document()
@@ -139,7 +146,12 @@ def _of_assets(inputs: Inputs, options: Mapping[str, Any]) -> Suggestions:
     inputs = replace(inputs, folders=tuple(assets.folders))
     terms = check_options(inputs, {**options, **MEASURED}, None, None)
     worlds = [(file,) for file in assets.files]
-    checked = check_each(worlds, terms, Limits(), os.cpu_count() or 1)
-    if len(checked) < len(worlds):  # a rule may be missing, or another pair have its names
-        raise KeyboardInterrupt
-    return suggestions_of({world[0]: asset.report for world, asset in checked.items()})
+    found: dict[str, Report] = {}
+    slots, wanted = os.cpu_count() or 1, Wanted(kept=False)
+    checked = check_locally(worlds, terms, Limits(), slots, wanted)
+    with closing(checked) as answers, Bar("assets") as bar:
+        for each in chain.from_iterable(answers):
+            found[each.world[0]] = read_line(each.line, Result).report
+            if bar is not None:
+                bar(len(found), len(worlds))
+    return suggestions_of({file: found[file] for (file,) in worlds})

@@ -17,10 +17,9 @@ from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
 from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.scene.opening import read_whole
+from satcheck.scene.words import listed
 from satcheck.verify import Checked, Rejected, VerificationReport, is_certified, parse, verify
 
-# At most this many files that are not there are named.
-MOST_NAMED = 3
 # The figures that a certificate may prove, in the words of the last line.
 _FIGURES = {"depth": ("depth",), "thickness": ("thickness",) * 2, "mtv": ("way out", "ways out")}
 # Outcomes that are not "accepted", in the words of the last line.
@@ -88,12 +87,9 @@ def _read(report: Path) -> Any:
 
 
 def _missing(result: VerificationReport, root: Path) -> str:
-    first = ", ".join(result.missing[:MOST_NAMED])
-    more = len(result.missing) - MOST_NAMED
-    files = first + (f" and {more:,} more" if more > 0 else "")
     return (
         f"{counted(len(result.missing), 'file is', 'files are')} missing below {root.absolute()}: "
-        f"{files}; --root names the folder where the check ran"
+        f"{listed(result.missing)}; --root names the folder where the check ran"
     )
 
 

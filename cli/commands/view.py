@@ -9,22 +9,21 @@ from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from tempfile import mkdtemp
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.manifest import read_manifest
-from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults, least_of
+from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults
 from satcheck.audit.words import is_listed
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import Target, format_option, targets_of
 from satcheck.cli.formats.assets import asset_rank, overview
-from satcheck.cli.formats.picture import render
 from satcheck.cli.formats.registry import ALL, Format, kind_of
 from satcheck.cli.inputs import Inputs
-from satcheck.cli.output import Document, Page, issue_line, talk, write_file
+from satcheck.cli.output import Document, issue_line, talk, write_file
 from satcheck.cli.rendering import (
     Delivery,
     files_line,
@@ -34,7 +33,7 @@ from satcheck.cli.rendering import (
 )
 from satcheck.cli.stated_scene import read_stored, stated_scene
 from satcheck.cli.worlds import Drawing, deliver_assets, tell_assets
-from satcheck.report.assets import Asset, AssetsReport, AssetVerdict
+from satcheck.report.assets import Asset, AssetsReport
 from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
@@ -130,23 +129,18 @@ def command(
     is_opened = form is None and not outputs and folder is None
     refuse_outputs(outputs, inputs)
     targets = () if is_opened else targets_of(form, outputs, ALL, _FORMATS)
-    view = _View(
-        document=Document(),
-        to=Delivery(targets, quiet=False, exit_zero=exit_zero, timings=True, top=top),
-        drawing=Drawing(root, folder, allow_outside, top or TOP),
-        parts=parts,
-        pose=pose,
-    )
+    to = Delivery(targets, False, exit_zero, timings=True, top=top, parts=parts, pose=pose)
+    view = _View(Document(), to, Drawing(root, folder, allow_outside, top or TOP))
     if any(path.suffix.lower() in ENDINGS for path in reports):
         expected = () if manifest is None else read_manifest(manifest)
         with StoredResults(reports, expected) as results:
-            return view.assets(results, results.issues, results.least, asset)
+            return view.assets(results, results.issues, asset)
     if len(reports) > 1 or manifest is not None:
         raise click.UsageError("several files are results of satcheck batch, which end in .jsonl")
     stored = read_stored(reports[0])
     if isinstance(stored, AssetsReport):
         each = [Stored((asset.file,), (), asset) for asset in stored.assets]
-        return view.assets(each, stored.issues, least_of(stored.issues), asset)
+        return view.assets(each, stored.issues, asset)
     if asset is not None:
         raise click.UsageError(f"--asset: {reports[0]} is the report of one check")
     if folder is not None:
@@ -157,20 +151,16 @@ def command(
 
 
 class _View(NamedTuple):
-    """How a stored report is shown. to: without a target a page opens in the browser. parts: a page
-    shows the convex parts of bodies. pose: of several that one."""
+    """How a stored report is shown. to: without a target a page opens in the browser."""
 
     document: Document
     to: Delivery
     drawing: Drawing
-    parts: bool
-    pose: int | None
 
     def assets(
         self,
         stored: Sequence[Stored] | StoredResults,
         issues: tuple[Issue, ...],
-        least: AssetVerdict,
         name: str | None,
     ) -> int:
         """Show many assets, or one of them: the named one, or in 3-D the worst."""
@@ -186,7 +176,7 @@ class _View(NamedTuple):
             return code
         to = replace(self.to, targets=others)
         found = (each.asset for each in stored)
-        seen = overview(found, issues, least=least, top=self.drawing.top)
+        seen = overview(found, issues, top=self.drawing.top)
         deliver_assets(self.document, seen, stored, to, self.drawing, only_shown=to.top is not None)
         tell_assets(seen, to)
         return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
@@ -211,10 +201,10 @@ class _View(NamedTuple):
         """Show the report of one check. Pictures need its scene, which is read again."""
         if isinstance(stated, SamplesReport):
             refuse_of_poses(self.to.forms)
-        elif self.pose is not None:
+        elif self.to.pose is not None:
             raise click.UsageError("--pose: the report is not about several poses")
         pictures = [t for t in self.to.targets if kind_of(t.form) == "picture"]
-        if self.pose is not None and self.to.targets and not pictures:
+        if self.to.pose is not None and self.to.targets and not pictures:
             raise click.UsageError("--pose is for pictures: add -o pose.html")
         scene, issues = Scene(name="", units=stated.units, bodies=()), list[Issue]()
         if pictures or not self.to.targets:
@@ -224,27 +214,16 @@ class _View(NamedTuple):
             talk(f"satcheck: {issue_line(issue)}")
         stated = replace(stated, issues=(*issues, *stated.issues))
         for form, output in ((target.form, target.output) for target in self.to.targets):
-            text = partial(self._rendered, form, stated, scene)
+            text = partial(rendered, stated, scene, form, self.to)
             self.document.deliver(text, output, utf8=form != "table")
         if not self.to.targets:
-            _show(self._drawn("html", stated, scene), self.document)
-        elif files := files_line(stated, scene, self.to.targets, self.pose):
+            page = rendered(stated, scene, "html", self.to, self.document.page)
+            _show(cast("str", page), self.document)
+        elif files := files_line(stated, scene, self.to):
             talk(files)
         if len(pictures) == len(self.to.targets):
             return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
-        verdict = stated.summary.verdict
-        return exit_codes.for_verdict(verdict, stated.issues, exit_zero=self.to.exit_zero)
-
-    def _rendered(
-        self, form: str, stated: Report | SamplesReport, scene: Scene, page: Page
-    ) -> str | bytes | Iterable[str]:
-        if kind_of(form) == "picture":
-            return self._drawn(form, stated, scene)
-        return rendered(stated, scene, form, self.to, page)
-
-    def _drawn(self, form: str, stated: Report | SamplesReport, scene: Scene) -> str | bytes:
-        split = self.parts or stated.settings.accuracy == "parts"
-        return render(form, stated, scene, split=split, pose=self.pose)
+        return exit_codes.for_report(stated, exit_zero=self.to.exit_zero)
 
 
 def _is_scene(target: Target) -> bool:
@@ -268,7 +247,7 @@ def _named(stored: Iterable[Stored], name: str) -> Report:
     raise click.UsageError(f"--asset: no asset is {name}{hint}")
 
 
-def _show(content: bytes | str, document: Document) -> None:
+def _show(content: str, document: Document) -> None:
     """The path is printed, as a browser may not come up."""
     path = Path(mkdtemp(prefix="satcheck-")) / "report.html"
     write_file(path, content)

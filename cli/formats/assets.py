@@ -17,6 +17,7 @@ import click
 from msgspec import Struct, field
 
 from satcheck.audit.batch.check_world import beside_assets
+from satcheck.audit.batch.remote import is_url
 from satcheck.audit.batch.stored import least_of
 from satcheck.audit.messages import clause, failing
 from satcheck.audit.summary import tool
@@ -36,7 +37,7 @@ from satcheck.cli.formats.tables import (
     joined,
     table,
 )
-from satcheck.cli.output import issue_line, talk
+from satcheck.cli.output import issue_line
 from satcheck.report.assets import ASSET_VERDICTS, Asset, AssetsReport, AssetVerdict, worst_verdict
 from satcheck.report.assets import counted as counts_of
 from satcheck.report.json import render_assets
@@ -65,6 +66,13 @@ _WORDS: dict[AssetVerdict, str] = {
     "incomplete": "INCOMPLETE",
     "pass": "PASS",
 }
+_NOTHING_COMPARED = Issue(
+    NOTHING_TO_CHECK,
+    "warning",
+    None,
+    None,
+    "no pair was checked: each file is a world of its own; --merge puts them into one",
+)
 # Letters of the summary with names: two rows of 80.
 _MOST = 160
 # So many are named in the summary.
@@ -112,19 +120,14 @@ def render(seen: Overview, page: Page) -> str:
     """Return the whole text, final newline included."""
     root = common_root([asset.file for asset in seen.shown])
     said = hidden(seen.listed - len(seen.shown), "asset") + all_begin(root)
-    said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen), *_steps_of_folders(seen)]
+    said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen)]
+    said += [*next_step(seen), *_steps_of_folders(seen)]
     lines = _table(seen.shown, root, page) if seen.shown else []
     return joined([*lines, *fitted_each(said, page)], page)
 
 
-def tell_issues(seen: Overview) -> None:
-    """Tell on stderr what a document of another format than a table does not say."""
-    for issue in seen.issues:
-        talk(f"satcheck: {issue_line(issue)}")
-
-
 def summary_line(seen: Overview) -> str:
-    """`FAIL: 39 assets: 2 fail (a.glb, b.glb), 37 pass. Next: satcheck a.glb lists its pairs.`"""
+    """Return `FAIL: 39 assets: 2 fail (a.glb, b.glb), 37 pass.`"""
     return " ".join(_summary(seen))
 
 
@@ -133,14 +136,17 @@ def _summary(seen: Overview) -> list[str]:
     line = line if len(line) <= _MOST else _counts(seen, names=False)
     unchecked = counted(seen.unchecked, "passing asset")
     ruled = [f"No pair of {unchecked} was checked: rules allow them all."] if seen.unchecked else []
-    return [line, *ruled, *seen.beside.lines(), *_next_step(seen)]
+    return [line, *ruled, *seen.beside.lines()]
 
 
 def _counts(seen: Overview, *, names: bool) -> str:
-    counts, total = seen.counts, counted(seen.total, "asset")
+    counts, total = seen.counts.copy(), counted(seen.total, "asset")
+    counts["pass"] -= seen.folders
     nothing = "of one body each: nothing to compare"
+    accepted = [f"{counted(seen.accepted, 'issue')} accepted"] if seen.accepted else []
     if seen.verdict == "pass" and seen.lone == seen.total:
-        return f"PASS: {total}{f' ({nothing})' if seen.total else ''}."
+        said = f"{total} ({nothing})" if seen.total else total
+        return f"PASS: {', '.join([said, *accepted])}."
     words: dict[AssetVerdict, str] = {
         "error": "have errors" if counts["error"] > 1 else "has errors",
         "fail": "fail" if counts["fail"] > 1 else "fails",
@@ -155,13 +161,17 @@ def _counts(seen: Overview, *, names: bool) -> str:
     if seen.lone:
         some = "" if seen.lone == counts["pass"] else f"{seen.lone:,} "
         parts[-1] += f" ({some}{nothing})"
+    parts += accepted
     return f"{_WORDS[seen.verdict]}: {': '.join([total, *filter(None, [', '.join(parts)])])}."
 
 
-def _next_step(seen: Overview) -> list[str]:
+def next_step(seen: Overview) -> list[str]:
     failing = seen.named.get("fail", [])[:1]
     unsure = [] if failing else seen.named.get("incomplete", [])[:1]
-    unsure = [file for file in unsure if not is_folder(file)]  # of files that no check reads
+    failing, unsure = (
+        [file for file in files if not (is_folder(file) or is_url(file))]  # which no check reads
+        for files in (failing, unsure)
+    )
     ctx = click.get_current_context(silent=True)
     if ctx is None or ctx.info_name != "view":
         steps = [f"Next: {_check_of(file)} lists its pairs." for file in failing]
@@ -237,33 +247,33 @@ def _listed(asset: Asset) -> list[Problem]:
 class Overview(Struct):
     """counts: of each verdict. named: the first assets with each verdict, one more than are shown.
     unchecked: the number of passing assets whose pairs are all allowed; lone: of those with one
-    body or none. config: lines about config
-    files. shown: assets for a table, the worst first. issues: about what all assets share; least:
-    the verdict that these allow at best.
+    body or none; folders: of those that stand for accepted files which no reader knows, and are no
+    assets. compared: the number of assets with a question. accepted: the number of accepted issues.
+    config: lines about config files. shown: assets for a table, the worst first. issues: about what
+    all assets share.
     """
 
     counts: Counter[AssetVerdict] = field(default_factory=Counter)
     named: dict[AssetVerdict, list[str]] = field(default_factory=dict)
     unchecked: int = 0
     lone: int = 0
+    folders: int = 0
+    compared: int = 0
+    accepted: int = 0
     config: dict[str, None] = field(default_factory=dict)
     beside: BesideBaseline = field(default_factory=BesideBaseline)
     shown: list[Asset] = field(default_factory=list)
     issues: tuple[Issue, ...] = ()
-    least: AssetVerdict = "pass"
 
     @property
     def verdicts(self) -> Counter[AssetVerdict]:
         """Those of the assets, and the one that the issues allow at best."""
-        return self.counts + Counter([self.least])
+        return self.counts + Counter([least_of(self.issues)])
 
     @property
     def verdict(self) -> AssetVerdict:
         """The worst."""
         return worst_verdict(self.verdicts)
-
-    def has(self, verdict: AssetVerdict) -> bool:
-        return bool(self.counts[verdict]) or verdict == self.least
 
     def report(self) -> AssetsReport:
         """Without the assets."""
@@ -278,40 +288,48 @@ class Overview(Struct):
     @property
     def listed(self) -> int:
         """The number of assets for a table."""
-        return self.total - self.counts["pass"]
+        return self.counts.total() - self.counts["pass"]
 
     @property
     def total(self) -> int:
-        return self.counts.total()
+        return self.counts.total() - self.folders
 
-    def noting(self, assets: Iterable[Asset]) -> Iterator[Asset]:
-        for asset in assets:
-            self._note(asset)
-            yield asset
-
-    def _note(self, asset: Asset) -> None:
+    def noting(self, asset: Asset) -> Asset:
         self.counts[asset.verdict] += 1
         named = self.named.setdefault(asset.verdict, [])
         if len(named) <= NAMED:
             named.append(asset.file)
-        codes = {issue.code for issue in asset.report.issues} if asset.verdict == "pass" else set()
-        self.unchecked += NOTHING_TO_CHECK in codes
-        self.lone += asset.verdict == "pass" and len(asset.report.bodies) < 2
+        self.compared += bool(asset.report.summary.pairs.asked or asset.report.answers)
+        self.accepted += sum(issue.state == "accepted" for issue in asset.report.issues)
+        if asset.verdict == "pass":
+            is_folder = any(_is_of_folder(issue, asset) for issue in asset.report.issues)
+            self.folders += is_folder
+            self.unchecked += any(i.code == NOTHING_TO_CHECK for i in asset.report.issues)
+            self.lone += not is_folder and len(asset.report.bodies) < 2
         self.config |= dict.fromkeys(config_lines([asset.report]))
         self.beside.note(asset.report)
+        return asset
+
+
+def _is_of_folder(issue: Issue, asset: Asset) -> bool:
+    """Return whether an issue is about a file that no reader knows, in the folder of this name."""
+    return issue.code == "unread-file" and issue.file != asset.file and not asset.report.bodies
 
 
 def overview(
     assets: Iterable[Asset],
     issues: tuple[Issue, ...] = (),
     *,
-    least: AssetVerdict = "pass",
     top: int | None = None,
+    compares: bool = False,
 ) -> Overview:
-    """Return what is known of the assets. top: how many are shown at most, the worst first."""
-    made = Overview(issues=issues, least=least)
-    worst = worst_of(made.noting(assets), ROWS if top is None else top, asset_rank)
+    """Return what is known of the assets. issues: about all of them. top: how many are shown at
+    most, the worst first. compares: without a pair nothing passes."""
+    made = Overview()
+    worst = worst_of(map(made.noting, assets), ROWS if top is None else top, asset_rank)
     made.shown = [each for each in worst if each.verdict != "pass"]
+    empty = (_NOTHING_COMPARED,) if compares and not made.compared else ()
+    made.issues = (*empty, *issues)
     return made
 
 

@@ -42,11 +42,7 @@ def support_lines(report: Report, page: Page) -> list[str]:
         island = None if number is None else statics.islands[number]
         style = _style(findings)
         lines += fitted(f"  {_answers(body, findings, stated, island)}", page, style)
-    if rest := len(answers) - MOST_BODIES:
-        lines += (
-            fitted(f"  and {counted(rest, 'more body', 'more bodies')}", page) if rest > 0 else []
-        )
-    return lines
+    return lines + _more(len(answers) - MOST_BODIES, "and {}", "more body", "more bodies")
 
 
 def _by_body(statics: Statics) -> list[tuple[str, list[SupportFinding]]]:
@@ -125,8 +121,7 @@ def component_lines(page: Page, findings: Sequence[Finding]) -> list[str]:
         lines += fitted(title, page, BOLD)
         for item in items[:MOST_COMPONENTS]:
             lines += fitted("  " + ", ".join(facts(item, finding)), page)
-        if rest := len(items) - MOST_COMPONENTS:
-            lines += fitted(f"  {counted(rest, 'thinner one')}", page) if rest > 0 else []
+        lines += _more(len(items) - MOST_COMPONENTS, "{}", "thinner one")
     return lines
 
 
@@ -170,5 +165,9 @@ def _others(findings: list[InsideFinding], page: Page) -> Iterator[str]:
         state = "not inside" if finding.answer == "no" else "open"
         style = BOLD_RED if finding.answer == "no" else YELLOW
         yield from fitted(f"  {finding.body}: {state}: {finding.reason}", page, style)
-    if (rest := len(others) - MOST_BODIES) > 0:
-        yield from fitted(f"  and {counted(rest, 'more body', 'more bodies')}", page)
+    yield from _more(len(others) - MOST_BODIES, "and {}", "more body", "more bodies")
+
+
+def _more(count: int, words: str, *names: str) -> list[str]:
+    """Return a line about those that are not shown; nothing for none."""
+    return [f"  {words.format(counted(count, *names))}"] if count > 0 else []

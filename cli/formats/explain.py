@@ -7,16 +7,13 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.words import at_most, counted, duration, number
 from satcheck.cli.formats.tables import BOLD, aligned, fitted
+from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.regions import Regions
     from satcheck.report.report import BodyReport, EffectReport, Finding, Report
     from satcheck.report.statics import Statics
-
-
-# Of those who ask for an effect.
-MOST_NAMES = 4
 
 
 # What was computed, its pairs or result, microseconds (None: none), and more about it.
@@ -59,7 +56,7 @@ def _effect(effect: EffectReport) -> _Row:
 def _support(statics: Statics) -> _Row:
     points = sum(len(contact.points) for contact in statics.contacts)
     islands = counted(len(statics.islands), "island")
-    more = f"{_names(statics.asked_by)}; {counted(points, 'contact point')}, {islands}"
+    more = f"{listed(statics.asked_by)}; {counted(points, 'contact point')}, {islands}"
     return "support", counted(statics.pairs, "pair"), statics.microseconds, more
 
 
@@ -69,16 +66,11 @@ def _in_regions(regions: Regions) -> _Row:
     return "inside", bodies, regions.microseconds, ", ".join(names)
 
 
-def _names(names: Sequence[str]) -> str:
-    more = len(names) - MOST_NAMES
-    return ", ".join(names[:MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
-
-
 def _who(effect: EffectReport) -> str:
     """`--depth; not on 2 (boxes apart), 1 (allowed)`."""
     if not effect.asked_by:
         return "not asked"
-    who = _names(effect.asked_by)
+    who = listed(effect.asked_by)
     reasons = [f"{count:,} ({reason})" for reason, count in effect.not_run.items()]
     return f"{who}; not on {', '.join(reasons)}" if reasons else who
 

@@ -19,7 +19,7 @@ from satcheck.scene.bodies import UNITS_UNKNOWN
 if TYPE_CHECKING:
     from satcheck.report.baseline import BaselineState
     from satcheck.report.report import Finding, Report
-    from satcheck.report.settings import OptionValue, StatedConfig
+    from satcheck.report.settings import StatedConfig
     from satcheck.report.sweep import Sweep
 
 _WORDS = {"contains": "containing"}
@@ -261,6 +261,6 @@ def config_line(config: StatedConfig) -> str:
     return f"Options of {config.file}: {', '.join(options)}"
 
 
-def toml(value: OptionValue) -> str:
+def toml(value: object) -> str:
     """The value as TOML writes it; JSON writes texts, numbers and lists of texts alike."""
-    return json.dumps(value, ensure_ascii=False)
+    return json.dumps(value, ensure_ascii=False, default=str)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from satcheck.audit.messages import of_command, verdict_line
+from satcheck.audit.messages import has_no_pair, of_command, verdict_line
 from satcheck.audit.words import (
     about,
     bounds,
@@ -68,6 +68,8 @@ def render(
 
     explain: also the pairs that pass. top: how many pairs at most; all count in the summary.
     """
+    if has_no_pair(report):
+        return joined(fitted(of_command(report), page), page)
     names = [body.id for body in report.bodies]
     root = common_root(names) if len(names) > 1 and not report.answers else ""
     if root:

@@ -10,7 +10,7 @@ READERS = (
     Reader(
         "ifc",
         "IFC",
-        (".ifc", ".ifczip", ".ifcxml"),
+        (".ifc", ".ifczip"),
         "satcheck.plugins.ifc.reader:read_ifc",
         kind="document",
         options=facets(CHORD),

@@ -50,6 +50,14 @@ def scene(folder: Path, mesh: str) -> str:
     return (folder / "a.toml").as_uri()
 
 
+def test_a_table_needs_no_file_of_results(folder: Path) -> None:
+    shutil.copy(SAMPLES / "rack.3mf", folder)
+    ran = satcheck("batch", f"{folder.as_uri()}/*.3mf", cwd=folder)
+    assert ran.code == 1
+    assert f"FAIL: 1 asset: 1 fails ({folder.as_uri()}/rack.3mf).\n" in ran.out
+    assert "Next:" not in ran.out  # a check takes no URL
+
+
 def test_results_are_those_of_the_same_files_here(folder: Path) -> None:
     """But for the names, and the keys, which depend on names."""
     make_worlds(folder, 12)

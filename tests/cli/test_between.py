@@ -21,8 +21,20 @@ def test_other_pairs_are_not_checked() -> None:
     one = satcheck(*THREE, "--between", "box", "box_*", "--format", "json", cwd=SAMPLES)
     assert [(f["a"], f["b"]) for f in one.document["findings"]] == [("box", "box_pushed")]
     assert one.document["summary"]["pairs"]["allowed"] == 2
-    none = satcheck(*THREE, "--between", "box", "nothing*", cwd=SAMPLES)
-    assert none.code == 3
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("nothing*", "no body is nothing*: there are box, box_pushed, cube"),
+        ("box_pushe", "no body is box_pushe (did you mean 'box_pushed'?)"),
+        ("group:nuts", "no group is group:nuts: there are none"),
+    ],
+)
+def test_a_name_that_selects_nothing_is_an_error(name: str, told: str) -> None:
+    ran = satcheck(*THREE, "--between", "box", name, cwd=SAMPLES)
+    assert (ran.code, ran.out) == (2, "")
+    assert f"--between: {told}" in ran.err
 
 
 def test_several_sets_add_up() -> None:

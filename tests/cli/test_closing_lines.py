@@ -6,6 +6,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit.messages import with_messages
+from satcheck.cli import exit_codes
 from satcheck.cli.formats.table import render
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.report.report import (
@@ -168,6 +169,13 @@ def test_an_open_mesh_that_decides_names_the_option() -> None:
             ),
         ),
         (
+            (replace(PENETRATING, severity="note", rule="--max-depth"),),
+            (
+                "2 bodies, 1 pair: 1 penetrating.",
+                "PASS: no collision beyond what --max-depth allows.",
+            ),
+        ),
+        (
             (replace(PENETRATING, severity="warning", undecided="limit", rule="cell.toml:3"),),
             (
                 "2 bodies, 1 pair: 1 penetrating.",
@@ -183,6 +191,31 @@ def test_the_last_lines_are_counts_and_a_verdict(
     shown_lines = shown(*findings, page=WIDE).splitlines()
     first = next(k for k, line in enumerate(shown_lines) if line.startswith("2 bodies, "))
     assert (shown_lines[first], " ".join(shown_lines[first + 1 :])) == lines
+
+
+def test_a_pair_of_long_names_is_named_by_their_ends() -> None:
+    a, b = (f"{'part_of_' * 12}{name}" for name in ("lid", "box"))
+    said = report(replace(PENETRATING, a=a, b=b)).message
+    assert said.startswith("FAIL: …")
+    assert "part_of_lid and …" in said
+    assert "part_of_box overlap (" in said
+
+
+def test_no_pair_is_left_beside_what_cannot_be_read() -> None:
+    made = report(UNDECIDED, issues=(reports.MISSING,))
+    lost = replace(made.bodies[1], triangles=None)
+    made = with_messages(replace(made, bodies=(made.bodies[0], lost)))
+    assert made.message == ("INCOMPLETE: no pair could be checked: 1 input could not be used.")
+    text = render(made, PLAIN_PAGE, explain=False, timings=True)
+    assert text == "ERROR: no pair could be checked: 1 input could not be used.\n"
+
+
+def test_exit_zero_forgives_what_fails_and_not_what_is_open() -> None:
+    made = report(PENETRATING, UNDECIDED)
+    assert "1 pair is indeterminate." in made.message
+    assert exit_codes.for_report(made, exit_zero=False) == exit_codes.FINDINGS
+    assert exit_codes.for_report(made, exit_zero=True) == exit_codes.INCOMPLETE
+    assert exit_codes.for_report(report(PENETRATING), exit_zero=True) == exit_codes.CLEAN
 
 
 def test_many_overlaps_ask_for_rules() -> None:
@@ -270,7 +303,8 @@ def test_what_is_not_proven_is_called_possible() -> None:
 def test_pairs_of_an_unreadable_body_are_no_rows() -> None:
     lost = replace(reports.BLOCK, id="gone", triangles=None, health=None)
     undecided = replace(UNDECIDED, b="gone", reason="unreadable gone.obj: file-not-found")
-    made = report(SEPARATED, undecided, bodies=(reports.BLOCK, lost), issues=(reports.MISSING,))
+    bodies = (reports.BLOCK, replace(reports.BLOCK, id=SEPARATED.b), lost)
+    made = report(SEPARATED, undecided, bodies=bodies, issues=(reports.MISSING,))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
     assert "file-not-found" not in text
     assert "gone: could not be used, its 1 pair not checked" in text

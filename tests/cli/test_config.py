@@ -139,9 +139,10 @@ def test_show_says_where_options_come_from(folder: Path) -> None:
         ("fail-on = 'never'\n", "satcheck.toml:1: fail-on: 'never' is not one of"),
         ("depth = 1\n", "satcheck.toml:1: depth: true or false expected"),
         ("tolerance = true\n", "satcheck.toml:1: tolerance: a text or a number expected"),
-        ("jobs = 1.5\n", "satcheck.toml:1: jobs: must be a whole number, at least 0 (--no"),
-        ("jobs = 'x'\n", "satcheck.toml:1: jobs: must be a whole number, at least 0 (--no"),
-        ("width = 1\n", "width: must be a number, more than 0, less than 1 (--no"),
+        ("jobs = 1.5\n", "satcheck.toml:1: jobs: '1.5' is not a valid integer range (--no"),
+        ("jobs = 'x'\n", "satcheck.toml:1: jobs: 'x' is not a valid integer range (--no"),
+        ("jobs = -1\n", "satcheck.toml:1: jobs: -1 is not in the range x>=0 (--no"),
+        ("width = 1\n", "width: 1.0 is not in the range 0<x<1 (--no"),
         ("clearance = '2 miles'\n", "satcheck.toml:1: clearance: "),
         ("rules = [['a']]\n", "satcheck.toml:1: rules: a text or a number expected"),
         ("[each]\njobs = 1\n", "satcheck.toml:1: each: no such option"),
@@ -237,8 +238,8 @@ def test_assets_are_all_checked_after_a_change_of_the_config(folder: Path) -> No
     assert len(ran.document["assets"]) == 2
 
 
-def test_a_project_without_the_table_costs_no_parser(folder: Path) -> None:
-    text = "[project]\nname = 'a'\ndependencies = ['satcheck']\n[tool.ruff]\nline-length = 9\n"
+def test_a_project_that_does_not_name_satcheck_costs_no_parser(folder: Path) -> None:
+    text = "[project]\nname = 'a'\n[tool.ruff]\nline-length = 9\n"
     config(folder, text, "pyproject.toml")
     names = imported(*PUSHED, code=1, cwd=folder)
     assert "tomllib" not in names

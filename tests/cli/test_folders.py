@@ -420,6 +420,28 @@ def test_what_is_not_checked_never_passes(tmp_path: Path) -> None:
     assert satcheck("view", "all.json", "--exit-zero", "--format", "csv", cwd=tmp_path).code == 3
 
 
+def test_without_a_place_for_results_the_run_says_so(assets: Path) -> None:
+    lost = f"import sys, tempfile; tempfile.tempdir = {str(assets / 'gone')!r}"
+    call = f"{lost}; sys.argv = ['satcheck', 'batch', '.']; from satcheck.cli import main; main()"
+    ran = subprocess.run(
+        [sys.executable, "-c", call],
+        cwd=assets,
+        env=environment(),
+        capture_output=True,
+        check=False,
+    )
+    assert (ran.returncode, ran.stdout) == (2, b"")
+    assert b"error: a temporary file: cannot write: No such file" in ran.stderr
+
+
+def test_a_folder_of_accepted_files_is_no_asset(tmp_path: Path) -> None:
+    shutil.copy(SAMPLES / "rack.3mf", tmp_path)
+    for name in ("chair.fbx", "table.blend"):
+        (tmp_path / name).write_bytes(b"no mesh")
+    ran = satcheck("batch", ".", "--accept", "unread-file", "--max-depth", "1mm", cwd=tmp_path)
+    assert (ran.code, ran.out) == (0, "PASS: 1 asset: 1 passes, 2 issues accepted.\n")
+
+
 RULES = '[[rules]]\na = "box"\nb = "box_pushed"\nallowed = true\nreason = "a press fit"\n'
 
 

@@ -43,7 +43,7 @@ def test_a_hit_is_shown_when_it_happens(tmp_path: Path) -> None:
     assert list(moments.placed) == ["a"]
     (shown,) = picture_data(report, scene)["findings"]
     assert shown["moment"] == number
-    assert [label[0] for label in shown["labels"][2:]] == ["hit at 2"]
+    assert [label[0] for label in shown["labels"][2:]] == ["hit at 2 of travel"]
 
 
 def test_a_way_that_starts_elsewhere_has_the_placement_first(tmp_path: Path) -> None:

@@ -170,10 +170,10 @@ def test_beside_the_report_and_in_its_place(tmp_path: Path) -> None:
 
 
 def test_the_closing_line_names_every_file(tmp_path: Path) -> None:
-    report, image, model = (str(tmp_path / f"x.{end}") for end in ("json", "png", "glb"))
-    files = ("-o", report, "-o", image, "-o", model)
+    report, image, model, text = (str(tmp_path / f"x.{e}") for e in ("json", "png", "glb", "txt"))
+    files = ("-o", report, "-o", image, "-o", model, "-o", text)
     ran = satcheck(*PUSHED, *files)
-    named = f"Report: {report}. Image of box and box_pushed: {image}. Model: {model}"
+    named = f"Report: {report}, {text}. Image of box and box_pushed: {image}. Model: {model}"
     assert ran.err.splitlines()[-1].endswith(named)
     assert satcheck(*PUSHED, *files, "--quiet").err == ""
 

@@ -87,7 +87,8 @@ def test_broken_inputs(tmp_path: Path, name: str, content: bytes) -> None:
 def test_a_failed_input_is_told_once() -> None:
     ran = satcheck("box.obj", "gone.obj")
     line = "satcheck: error: gone.obj: no such file [file-not-found]\n"
-    assert (ran.code, ran.out, ran.err) == (2, "", line)
+    said = "ERROR: no pair could be checked: 1 input could not be used.\n"
+    assert (ran.code, ran.out, ran.err) == (2, said, line)
     three = satcheck("box.obj", "cube.off", "gone.obj")
     assert (three.code, three.err) == (2, line)
     assert "gone.obj" not in three.out
@@ -97,6 +98,17 @@ def test_a_misspelt_command_gets_a_hint() -> None:
     said = satcheck("confug", "show").err
     assert said.endswith("satcheck: did you mean the command config:\n  satcheck config show\n")
     assert "did you mean" not in satcheck("confug.obj", "box.obj").err
+
+
+@pytest.mark.parametrize("command", [(), ("suggest",)])
+@pytest.mark.parametrize("name", ["report.json", "results.jsonl"])
+def test_a_stored_report_is_shown_by_view(
+    tmp_path: Path, command: tuple[str, ...], name: str
+) -> None:
+    satcheck("batch", *PUSHED, "-o", str(tmp_path / name))
+    ran = satcheck(*command, name, cwd=tmp_path)
+    assert ran.code == 2
+    assert f"{name} is a stored report. To show it:\n  satcheck view {name}\n" in ran.err
 
 
 def test_the_readable_rest_is_still_checked() -> None:

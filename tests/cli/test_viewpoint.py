@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.audit.words import figure, short_names
 from satcheck.cli.formats.picture.data import headline, picture_data
 from satcheck.cli.formats.picture.moments import Moments
 from satcheck.cli.formats.picture.png import view_of
-from satcheck.cli.formats.picture.shown import Shown, Shows, figure, short_names
+from satcheck.cli.formats.picture.shown import Shown, Shows
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box
 from satcheck.scene import Scene, load_scene
@@ -115,10 +116,10 @@ def test_the_headline_counts_pairs() -> None:
     assert headline(check(scene), Moments(note="pose 3")).endswith(", pose 3")
 
 
-def test_figures_have_three_digits() -> None:
-    assert figure((0.50411, 0.50412), "mm") == "0.504 mm"
+def test_figures_are_those_of_tables() -> None:
+    assert figure((0.50411, 0.50411), "mm") == "0.504 mm"
     assert figure((0.0, 0.3), "mm") == "at most 0.3 mm"
-    assert figure((0.48, 0.5236), None) == "0.48 to 0.524"
+    assert figure((0.48, 0.5236), None) == "0.502 ±0.023"
 
 
 def test_names_lose_the_folders_that_they_share() -> None:

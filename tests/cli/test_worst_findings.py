@@ -131,6 +131,16 @@ def test_names_of_pictures_stay_in_their_folder(name: str) -> None:
     assert re.fullmatch(r"007-[A-Za-z0-9-]{1,80}\.png", made)
 
 
+def test_a_touch_has_no_picture_and_the_title_no_next_step(folder: Path) -> None:
+    scene = (folder / "a.toml").read_text().replace("0.5, 0, 0", "1.0, 0, 0")
+    (folder / "a.toml").write_text(scene)
+    satcheck("batch", "a.toml", "b.toml", "-o", "worst.html", cwd=folder)
+    page = Page((folder / "worst.html").read_text())
+    assert re.findall(r"\d\. [ab]\.toml", page.text) == ["1. b.toml"]
+    assert "FAIL: 2 assets: 1 fails (b.toml), 1 passes." in page.text
+    assert "Next:" not in page.text
+
+
 def test_a_scene_without_findings_has_a_page(folder: Path) -> None:
     satcheck("batch", "box.obj", "-o", "one.jsonl", cwd=folder)
     ran = satcheck("view", "one.jsonl", "--format", "html", cwd=folder)

@@ -53,7 +53,7 @@ def test_formats_of_ci(form: str) -> None:
 def test_markdown_lists_no_notes() -> None:
     text = "".join(pieces({"all": REPORT}, "markdown"))
     assert order(text, "| block and {1}") == ["deep", "thin"]
-    assert "1 more row: see the JSON report." in text
+    assert "1 more row: a JSON report has all." in text
 
 
 def test_table_and_verdict() -> None:

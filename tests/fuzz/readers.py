@@ -13,9 +13,10 @@ from satcheck.audit import check
 from satcheck.audit.baseline import read_baseline
 from satcheck.cli.config import nearest_config, read_config
 from satcheck.cli.formats.picture.html import render as page
-from satcheck.cli.stated_scene import read_report, stated_scene
+from satcheck.cli.stated_scene import read_stored, stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
+from satcheck.report.report import Report
 from satcheck.scene import Refused, Scene, load_scene
 from satcheck.scene.document import Document, Refusal
 from satcheck.scene.files.nodes import flattened
@@ -93,10 +94,10 @@ def verify_report(path: Path) -> None:
 
 
 def view_report(path: Path) -> None:
-    report = read_report(path)
-    reports = (
-        [asset.report for asset in report.assets] if isinstance(report, AssetsReport) else [report]
-    )
+    report = read_stored(path)
+    reports = [report] if isinstance(report, Report) else []
+    if isinstance(report, AssetsReport):
+        reports = [asset.report for asset in report.assets]
     for each in reports:
         scene, _ = stated_scene(each, path.parent)
         page(each, scene)

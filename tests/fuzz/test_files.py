@@ -9,7 +9,7 @@ from typing import Any, cast
 
 import pytest
 
-from satcheck.cli.stated_scene import read_report, stated_scene
+from satcheck.cli.stated_scene import read_stored, stated_scene
 from satcheck.report.report import Report
 from tests.fuzz.files import fault_of, file_of, workplace
 from tests.fuzz.readers import READERS, attempt, name_of, seeds
@@ -77,6 +77,6 @@ def test_what_was_a_fault_is_an_error(kind: str, content: bytes, tmp_path: Path)
 def test_a_report_that_places_a_body_nowhere(tmp_path: Path) -> None:
     path = workplace(tmp_path) / name_of("view")
     path.write_bytes(golden(lambda report: report["bodies"][0].update(transform=[1.0] * 16)))
-    scene, issues = stated_scene(cast("Report", read_report(path)), path.parent)
+    scene, issues = stated_scene(cast("Report", read_stored(path)), path.parent)
     assert [issue.code for issue in issues] == ["not-drawn"]
     assert len(scene.bodies) == 1

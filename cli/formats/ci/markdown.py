@@ -52,7 +52,7 @@ def _lines(reports: Reports) -> Iterator[str]:
     for problem in listed:
         yield f"| {problem.level} | {as_text(problem.kind)} | {as_text(problem.message)} |"
     if left_out:
-        yield from ("", f"{counted(left_out, 'more row')}: see the JSON report.")
+        yield from ("", f"{counted(left_out, 'more row')}: a JSON report has all.")
 
 
 def as_text(text: str) -> str:

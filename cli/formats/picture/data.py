@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from satcheck.audit.messages import measured
-from satcheck.audit.words import counted, is_hit, is_listed, severity, worst_first
+from satcheck.audit.messages import measured, wrong_pairs
+from satcheck.audit.words import counted, is_listed, severity, worst_first
 from satcheck.cli.formats.details import facts
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.formats.picture.geometry import geometry
@@ -106,25 +106,8 @@ def picture_data(
 
 
 def headline(report: Report, moments: Moments) -> str:
-    """`6 of 21 pairs overlap, 1 is undecided`; the message where no pair is at fault."""
-    note = f", {moments.note}" if moments.note else ""
-    total, failing = report.summary.pairs.asked, report.settings.fail_on
-    wrong = [finding for finding in report.findings if is_failure(finding, failing)]
-    overlaps = sum(finding.at_rest in OVERLAPS for finding in wrong)
-    hits = sum(is_hit(finding) and finding.at_rest not in OVERLAPS for finding in wrong)
-    undecided = sum(finding.undecided is not None for finding in report.findings)
-    counts = [
-        (overlaps, "overlaps", "overlap"),
-        (hits, "hits while moving", "hit while moving"),
-        (len(wrong) - overlaps - hits, "is too close", "are too close"),
-        (undecided, "is undecided", "are undecided"),
-    ]
-    said = [(count, one if count == 1 else many) for count, one, many in counts if count]
-    if not said or report.answers:
-        return f"{report.message.partition(': ')[2]}{note}"
-    (first, verb), *more = said
-    rest = "".join(f", {count:,} {words}" for count, words in more)
-    return f"{first:,} of {counted(total, 'pair')} {verb}{rest}{note}"
+    """Return `6 of 21 pairs overlap, 1 is undecided, at pose 3`."""
+    return ", ".join(filter(None, [wrong_pairs(report), moments.note]))
 
 
 def listed(report: Report) -> list[Finding]:

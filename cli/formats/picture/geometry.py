@@ -13,6 +13,8 @@ import numpy as np
 
 from satcheck.cli.formats.picture.packing import frame_of, packed, packed_mesh, simplified
 from satcheck.core import Mesh
+from satcheck.core.shape_mesh import mesh_of
+from satcheck.core.shapes import Box
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
@@ -101,10 +103,8 @@ def geometry(
 
 def cube() -> Mesh:
     """From 0 to 1."""
-    corners = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    triangles = [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))]
-    return Mesh(np.array(corners, dtype=np.float64), np.array(triangles, dtype=np.uint32))
+    centred = mesh_of(Box((1.0, 1.0, 1.0)))
+    return Mesh(np.asarray(centred.vertices) + 0.5, centred.triangles)
 
 
 def joined(meshes: Iterable[Mesh]) -> Mesh:

@@ -72,7 +72,7 @@ function listComponents(now, choose) {
     button.setAttribute("aria-pressed", "false");
     button.addEventListener("click", () => choose(number));
   });
-  if (now.more) added(place, "li", `${now.more} more: see the JSON report`);
+  if (now.more) added(place, "li", `${now.more} more: a JSON report has all`);
 }
 
 function markComponent(number) {

@@ -21,11 +21,9 @@ const shade = (body) => {
 };
 // A body without geometry has no number.
 const isDrawn = (now) => Boolean(now) && now.a !== null && now.b !== null;
-// To a power of ten, as many digits as corners of 16 bits have.
-const rounded = (value, size) => {
-  const step = 10 ** Math.ceil(Math.log10(size / 65535));
-  return Number((Math.round(value / step) * step).toPrecision(6));
-};
+// Three digits, and all before the point, as in tables.
+const rounded = (value) => (value < 999.5 ? Number(value.toPrecision(3)) : Math.round(value));
+const STEPS = 65535; // of a coordinate, from one side of the box of its mesh to the other
 
 // Where a point comes to lie, and rows that first scale and shift.
 const placedAt = (rows, at) => [0, 1, 2].map((r) => dot(rows.slice(4 * r, 4 * r + 3), at) + rows[4 * r + 3]);
@@ -253,7 +251,7 @@ class Picture {
 
   // The shadow of a body as drawn: least and greatest value along the axis.
   shadow(shape, axis) {
-    const { corners, rows } = shape, scale = corners instanceof Uint16Array ? 1 / 65535 : 1;
+    const { corners, rows } = shape, scale = corners instanceof Uint16Array ? 1 / STEPS : 1;
     const [x, y, z, w] = [0, 1, 2, 3].map((k) => dot(axis, [rows[k], rows[4 + k], rows[8 + k]]));
     let low = Infinity, high = -Infinity;
     for (let k = 0; k < corners.length; k += 3) {
@@ -289,8 +287,9 @@ class Picture {
     bar(b, 1, B);
     bar(apart ? [inner[1], inner[0]] : inner, 2, apart ? GREEN : RED);
     for (const t of inner) this.rodFrom(place(t, 0), place(t, reach + 7 * width), 0.1 * width, view.ink);
-    const length = rounded(Math.abs(inner[1] - inner[0]), 2 * radius), words = apart ? "shadows apart by" : "shadows overlap by";
-    const text = length ? `${words} ${length} ${report.unit}`.trim() : "shadows touch";
+    const length = Math.abs(inner[1] - inner[0]), words = apart ? "shadows apart by" : "shadows overlap by";
+    const isNone = length < (2 * radius) / STEPS;
+    const text = isNone ? "shadows touch" : `${words} ${rounded(length)} ${report.unit}`.trim();
     labels.push([text, place((inner[0] + inner[1]) / 2, reach + 10 * width), "axis"]);
   }
 

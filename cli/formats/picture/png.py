@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from satcheck.audit.words import is_hit, severity
+from satcheck.audit.words import is_hit, severity, short_names
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.formats.picture.data import (
     drawn_finding,
@@ -26,7 +26,7 @@ from satcheck.cli.formats.picture.lettering import width_of, write
 from satcheck.cli.formats.picture.marks import arrow, ball_of, dot, rod, sphere_around
 from satcheck.cli.formats.picture.moments import moments_of
 from satcheck.cli.formats.picture.raster import INNER, MARKS, Kind, Triangles, drawn
-from satcheck.cli.formats.picture.shown import Shows, placed_point, short_names
+from satcheck.cli.formats.picture.shown import Shows, placed_point
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, of_all
 from satcheck.report.report import OVERLAPS
 

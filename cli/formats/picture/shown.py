@@ -9,7 +9,7 @@ import numpy as np
 
 from satcheck import core
 from satcheck.audit.stages.contacts import contacts_of
-from satcheck.audit.words import NEGLIGIBLE, is_hit, with_unit
+from satcheck.audit.words import figure, is_hit, number, place, short_names, with_unit
 from satcheck.cli.formats.picture.marks import sphere_around
 from satcheck.cli.formats.picture.rims import deciding_rim
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, Viewpoints
@@ -26,14 +26,11 @@ if TYPE_CHECKING:
     from satcheck.cli.formats.picture.rims import Rim
     from satcheck.core import Mesh
     from satcheck.report.report import Finding, Report
-    from satcheck.report.sweep import Place
-    from satcheck.report.values import Interval
     from satcheck.scene import Body, Scene
 
     Floats = npt.NDArray[np.float64]
     Kind = Literal["a", "b", "arrow", "gap", "ball", "hit", "hole"]
 
-LONGEST_NAME = 40
 MOST_POINTS = 20_000  # of the lines of a pair
 # A body is named at a point of its surface that is no farther from the middle than this share of
 # the radius; of so many of its points at most.
@@ -109,11 +106,11 @@ class Shows:
             marks = marks._replace(rim=deciding_rim(finding, pair, self._surface), lines=lines)
         if closely and moment:
             marks = marks._replace(gap=self._gap_then(finding, pair))
-        place, across = _place(finding, pair, marks), self._across(marks, finding, moment)
+        seen, across = _place(finding, pair, marks), self._across(marks, finding, moment)
         view = self._viewpoints.of_pair(
             bodies,
             pair,
-            place,
+            seen,
             across,
             through=marks.rim and marks.rim.normal,
             also=marks.points(),
@@ -123,7 +120,7 @@ class Shows:
             *self._names(pair, view, closely=closely),
             *self._figures(finding, marks, view.towards),
         ]
-        return Shown(finding, moment, pair, place, marks, labels, view)
+        return Shown(finding, moment, pair, seen, marks, labels, view)
 
     def _surface(self, body: Body) -> core.Surface:
         """As it stands at the moment of the last scene."""
@@ -179,13 +176,13 @@ class Shows:
             )
         if marks.gap is not None:
             length = float(np.linalg.norm(marks.gap[1] - marks.gap[0]))
-            text = f"gap {with_unit(f'{length:.3g}', unit)}"
+            text = f"gap {with_unit(number(length), unit)}"
             labels.append(Label(text, (marks.gap[0] + marks.gap[1]) / 2, "gap"))
         if marks.hit is not None and finding.motion is not None:
-            at = ", ".join(_when(place, unit) for place in finding.motion.at)
+            at = ", ".join(place(each, unit) for each in finding.motion.at)
             labels.append(Label(f"hit at {at}", marks.hit, "hit"))
         if marks.rim is not None:
-            wide = with_unit(f"{marks.rim.diameter:.3g}", unit)
+            wide = with_unit(number(marks.rim.diameter), unit)
             hole = f"{marks.rim.which} of {short_names(marks.rim.body)[0]}"
             text = f"{hole}, {wide} across: its fill decides"
             rim = np.concatenate(marks.rim.lines)
@@ -203,37 +200,6 @@ def placed_point(body: Body, point: Floats) -> Floats:
     matrix = np.array(body.transform or IDENTITY).reshape(4, 4)
     placed: Floats = matrix[:3, :3] @ point + matrix[:3, 3]
     return placed
-
-
-def short_names(*ids: str) -> list[str]:
-    """Without the folders that all of them share, and with an end for a beginning that is long."""
-    folders = [id_.split("/")[:-1] for id_ in ids]
-    shared = 0
-    if len(ids) > 1:
-        for names in zip(*folders, strict=False):
-            if len(set(names)) > 1:
-                break
-            shared += 1
-    short = ["/".join(id_.split("/")[shared:]) for id_ in ids]
-    return [name if len(name) <= LONGEST_NAME else f"…{name[-LONGEST_NAME:]}" for name in short]
-
-
-def figure(bounds: Interval | None, unit: str | None) -> str:
-    """Three digits: `0.504 mm`, `0.49 to 0.52 mm`, `at most 0.3 mm`."""
-    if bounds is None:
-        return ""
-    low, high = (f"{value:.3g}" for value in bounds)
-    if low == high:
-        return with_unit(high, unit)
-    if bounds[0] <= NEGLIGIBLE * bounds[1]:
-        return f"at most {with_unit(high, unit)}"
-    return f"{low} to {with_unit(high, unit)}"
-
-
-def _when(place: Place, unit: str | None) -> str:
-    value = f"{place.value:.3g}"
-    length = with_unit(value, unit)
-    return {"degrees": f"{value}°", "length": length, "t": f"t = {value}"}[place.term]
 
 
 def _way(finding: Finding, pair: list[Body]) -> tuple[Floats, Floats] | None:
