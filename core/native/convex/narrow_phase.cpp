@@ -10,7 +10,6 @@
 #include "convex/epa.hpp"
 #include "convex/exact_depth.hpp"
 #include "convex/exact_distance.hpp"
-#include "convex/exact_pair.hpp"
 #include "convex/pair_order.hpp"
 #include "convex/portal.hpp"
 #include "convex/proof_noise.hpp"
@@ -200,9 +199,14 @@ void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const 
   result.witness_b = to_world * (core.witness.b - core.axis * m.b.margin);
 }
 
+Outcome outcome_of(int sign_of_depth) {
+  return sign_of_depth < 0 ? Outcome::separated : sign_of_depth > 0 ? Outcome::penetrating : Outcome::touching;
+}
+
+ExactDifference difference_of(const WorldHull& a, const WorldHull& b) { return {a.vertices(), b.vertices()}; }
+
 // Computes the figure without float64 errors. The outcome is known and not touching.
-void measure_exactly(const Polytope& a, const Polytope& b, PairResult& result) {
-  const ExactDifference difference(a.vertices, b.vertices);
+void measure_exactly(const ExactDifference& difference, PairResult& result) {
   const bool apart = result.outcome == Outcome::separated;
   const ExactFigure figure = apart ? exact_distance(difference) : exact_depth(difference);
   result.distance = apart ? figure.value : -figure.value;
@@ -224,11 +228,11 @@ std::optional<Outcome> outcome_in_place(const Shape& a, const Pose& pose_a, cons
 // Decides exactly what float64 left open about two polytopes: the sign, or a figure with wide bounds. Most pairs in
 // doubt are flush neighbours, so the faces along `axis` (from A to B, in the frame of A) come first.
 void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt, Vec3 axis,
-                    double noise, PairResult& result) {
+                    PairResult& result) {
   const WorldHull hull_a(a, pose_a), hull_b(b, pose_b);
   if (in_doubt) {
     const std::optional<Outcome> by_face = outcome_by_face(hull_a, hull_b, pose_a.rotation * axis);
-    result.outcome = by_face ? *by_face : decide_exactly(hull_a.polytope(), hull_b.polytope(), 2 * noise);
+    result.outcome = by_face ? *by_face : outcome_of(compare_depth(difference_of(hull_a, hull_b), Dyadic()));
     result.method = Method::exact;
     result.reason = Reason::none;
   }
@@ -236,18 +240,14 @@ void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Po
   if (result.outcome == Outcome::touching) {
     result.distance = result.lower = result.upper = 0;
   } else {
-    measure_exactly(hull_a.polytope(), hull_b.polytope(), result);
+    measure_exactly(difference_of(hull_a, hull_b), result);
   }
 }
 
 // The same for cores of vertices with a margin: the bounds follow the sign.
-void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double noise,
-                  PairResult& result) {
-  const Polytope core_a = WorldHull(a, pose_a).polytope(), core_b = WorldHull(b, pose_b).polytope();
-  const bool cores_meet = decide_exactly(core_a, core_b, 2 * noise) != Outcome::separated;
-  const ExactDifference difference(core_a.vertices, core_b.vertices);
-  const int side = cores_meet ? -1 : compare_distance(difference, Dyadic(a.margin) + Dyadic(b.margin));
-  result.outcome = side > 0 ? Outcome::separated : side < 0 ? Outcome::penetrating : Outcome::touching;
+void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, PairResult& result) {
+  const int side = compare_distance({world_points(a, pose_a), world_points(b, pose_b)}, Dyadic(a.margin) + Dyadic(b.margin));
+  result.outcome = outcome_of(-side);
   result.method = Method::exact;
   result.reason = Reason::none;
   if (!result.has_distance) return;
@@ -284,7 +284,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool by_sat = takes_sat(m, method);
   if (by_sat && query == Query::overlap && are_boxes(m.a, m.b)) {
     result.axes_tested = 15;  // overlap_of_boxes() did not decide
-    settle_exactly(a, pose_a, b, pose_b, true, m.b_in_a.translation, noise, result);
+    settle_exactly(a, pose_a, b, pose_b, true, m.b_in_a.translation, result);
     return result;
   }
   if (query == Query::overlap && margin == 0 && !by_sat) {
@@ -321,9 +321,9 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
   if (polytopes) {
-    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, noise, result);
+    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, result);
   } else if (in_doubt && !m.curved) {
-    settle_grown(a, pose_a, b, pose_b, noise, result);
+    settle_grown(a, pose_a, b, pose_b, result);
   }
   if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
   return result;
