@@ -37,18 +37,8 @@ bool solid_polytopes(const MinkowskiDifference& m) {
   return is_solid(m.a) && is_solid(m.b);
 }
 
-bool are_boxes(const Shape& a, const Shape& b) { return a.kind == ShapeKind::box && b.kind == ShapeKind::box; }
-
-bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
-  if (method == MethodChoice::gjk) return false;
-  return are_boxes(m.a, m.b) || (method == MethodChoice::sat && solid_polytopes(m));
-}
-
-CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& result) {
-  const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
-  const BoxContact contact = are_boxes(m.a, m.b) ? contact_of_boxes(m) : BoxContact{sat_polytopes(m, goal), {}, false};
-  const SatResult& sat = contact.sat;
-  result.axes_tested += sat.axes_tested;
+// The witness points of an overlap are left to the caller.
+CoreAnswer from_sat(const SatResult& sat) {
   CoreAnswer answer;
   answer.lower = sat.lower;
   answer.upper = answer.value = sat.penetration;
@@ -58,9 +48,6 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
   answer.feature = sat.feature;
   answer.index_a = sat.index_a;
   answer.index_b = sat.index_b;
-  if (query != Query::overlap && sat.penetration >= -m.support_error()) {
-    answer.witness = contact.sole ? contact.witness : contact_region_centre(m, sat.axis, sat.penetration);
-  }
   return answer;
 }
 
@@ -141,7 +128,6 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
     case EpaResult::Status::stalled:
       break;
   }
-  if (solid_polytopes(m)) return from_sat(m, Query::depth, result);
   answer.lower = std::fmax(e.lower, -g.upper);
   answer.has_axis = std::isfinite(e.upper);
   answer.witness = overlap_witness(m, e);
@@ -186,17 +172,24 @@ double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose&
   return proof_noise(m.scale, m.a, pose_a, m.b, pose_b);
 }
 
-void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const Pose& pose_a, double noise,
+void write_stage(const CoreAnswer& core, PairResult& result) {
+  result.method = core.method;
+  result.feature = core.feature;
+  result.index_a = core.index_a;
+  result.index_b = core.index_b;
+}
+
+void write_distance(const Shape& a, const Pose& pose_a, const Shape& b, const CoreAnswer& core, double noise,
                     PairResult& result) {
-  const double margin = m.a.margin + m.b.margin;
-  const Pose to_world = core_placement(m.a, pose_a);
+  const double margin = a.margin + b.margin;
+  const Pose to_world = core_placement(a, pose_a);
   result.has_distance = true;
   result.distance = -(core.value + margin);
   result.lower = -(core.upper + margin) - noise;
   result.upper = -(core.lower + margin) + noise;
   result.normal = to_world.rotation * core.axis;
-  result.witness_a = to_world * (core.witness.a + core.axis * m.a.margin);
-  result.witness_b = to_world * (core.witness.b - core.axis * m.b.margin);
+  result.witness_a = to_world * (core.witness.a + core.axis * a.margin);
+  result.witness_b = to_world * (core.witness.b - core.axis * b.margin);
 }
 
 Outcome outcome_of(int sign_of_depth) {
@@ -259,21 +252,19 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
   if (side == 0) result.distance = 0;
 }
 
-// A separating axis does not give the distance. For boxes whose distance is needed, the distance is computed first.
+// A separating axis does not give the distance.
 CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
-  const bool distance_first = query == Query::distance && are_boxes(m.a, m.b);
-  const auto distance = [&](double lower_bound) {
-    const GjkResult g = gjk(m);
-    result.gjk_iterations += g.iterations;
-    return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
-  };
-  if (distance_first) {
-    const CoreAnswer core = distance(-INFINITY);
-    if (core.upper < -m.support_error()) return core;
+  const SatResult sat = sat_polytopes(m, query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis);
+  result.axes_tested += sat.axes_tested;
+  CoreAnswer core = from_sat(sat);
+  if (query == Query::overlap) return core;
+  if (sat.penetration >= -m.support_error()) {
+    core.witness = contact_region_centre(m, sat.axis, sat.penetration);
+    return core;
   }
-  const CoreAnswer core = from_sat(m, query, result);
-  const bool apart = core.upper < -m.support_error();
-  return query != Query::overlap && apart ? distance(-core.upper) : core;
+  const GjkResult g = gjk(m);
+  result.gjk_iterations += g.iterations;
+  return from_gjk_distance(m, g, std::fmax(g.lower, -sat.penetration));
 }
 
 PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
@@ -281,12 +272,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const MinkowskiDifference m(a, pose_a, b, pose_b);
   const double noise = proof_noise(m, pose_a, pose_b), margin = m.a.margin + m.b.margin;
   PairResult result;
-  const bool by_sat = takes_sat(m, method);
-  if (by_sat && query == Query::overlap && are_boxes(m.a, m.b)) {
-    result.axes_tested = 15;  // overlap_of_boxes() did not decide
-    settle_exactly(a, pose_a, b, pose_b, true, m.b_in_a.translation, result);
-    return result;
-  }
+  const bool by_sat = method == MethodChoice::sat && solid_polytopes(m);
   if (query == Query::overlap && margin == 0 && !by_sat) {
     // For curved shapes, only pairs clearly away from touching. The bounds of a depth decide whether they touch.
     const PortalResult portal = seek_portal(m, m.curved ? noise + 4 * kCurvedFacetGap * m.scale : noise);
@@ -303,10 +289,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
     }
   }
   CoreAnswer core = by_sat ? from_sat_or_distance(m, query, result) : from_gjk(m, query, result);
-  result.method = core.method;
-  result.feature = core.feature;
-  result.index_a = core.index_a;
-  result.index_b = core.index_b;
+  write_stage(core, result);
   result.outcome = classify(core, m, noise);
   const bool in_balance = result.outcome == Outcome::touching || result.outcome == Outcome::undecided;
   if (m.curved && core.has_axis && (query != Query::overlap || in_balance)) {
@@ -315,8 +298,8 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   }
   const bool polytopes = a.is_polytope() && b.is_polytope();
   if (!polytopes && core.has_axis) straighten(core);
-  if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
-  const double confirmed_below = core.method == Method::sat && !are_boxes(m.a, m.b) ? std::fmax(kShallow * m.scale, noise) : noise;
+  if (query != Query::overlap && core.has_axis) write_distance(a, pose_a, b, core, noise, result);
+  const double confirmed_below = core.method == Method::sat ? std::fmax(kShallow * m.scale, noise) : noise;
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
@@ -329,22 +312,58 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   return result;
 }
 
+// Two boxes: 15 axes, and GJK for a gap. Most boxes whose distance is needed are apart, and GJK comes first.
+PairResult check_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query) {
+  PairResult result;
+  CoreAnswer core;
+  double noise = 0, scale = 0;
+  const auto measure_gap = [&](double lower_bound) {
+    const MinkowskiDifference m(a, pose_a, b, pose_b);
+    const GjkResult g = gjk(m);
+    result.gjk_iterations += g.iterations;
+    core = from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
+    noise = proof_noise(m, pose_a, pose_b);
+    scale = m.scale;
+  };
+  if (query == Query::distance) measure_gap(-INFINITY);
+  if (!(core.upper < -noise)) {
+    const BoxContact contact = contact_of_boxes(a, pose_a, b, pose_b);
+    result.axes_tested = contact.sat.axes_tested;
+    core = from_sat(contact.sat);
+    noise = contact.noise;
+    scale = contact.scale;
+    if (query != Query::overlap) {
+      if (core.upper < -noise) {
+        measure_gap(-core.upper);
+      } else if (contact.sole) {
+        core.witness = contact.witness;
+      } else {
+        core.witness = contact_region_centre({a, pose_a, b, pose_b}, core.axis, core.value);
+      }
+    }
+  }
+  write_stage(core, result);
+  result.outcome = core.upper < -noise ? Outcome::separated : Outcome::penetrating;
+  if (query != Query::overlap) write_distance(a, pose_a, b, core, noise, result);
+  const double widest = kWidestInterval * scale;
+  const bool in_doubt = core.lower <= noise && core.upper >= -noise;
+  const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
+  if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, result);
+  return result;
+}
+
 PairResult check_in_any_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                               MethodChoice method) {
   // Selected by index instead of a branch, because the order is unpredictable.
   const Shape* const shapes[2] = {&a, &b};
   const Pose* const poses[2] = {&pose_a, &pose_b};
   const bool swapped = !comes_before(a, pose_a, b, pose_b);
-  PairResult result = check_in_order(*shapes[swapped], *poses[swapped], *shapes[!swapped], *poses[!swapped], query, method);
+  const Shape &first = *shapes[swapped], &second = *shapes[!swapped];
+  const Pose &pose_first = *poses[swapped], &pose_second = *poses[!swapped];
+  PairResult result = a.is_box() && b.is_box() && method != MethodChoice::gjk
+                          ? check_boxes(first, pose_first, second, pose_second, query)
+                          : check_in_order(first, pose_first, second, pose_second, query, method);
   if (swapped) mirror(result);
-  return result;
-}
-
-PairResult check_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query) {
-  PairResult result = query == Query::overlap ? overlap_of_boxes(a, pose_a, b, pose_b) : depth_of_boxes(a, pose_a, b, pose_b);
-  if (result.outcome == Outcome::undecided) {
-    result = check_in_any_order(a, pose_a, b, pose_b, query, MethodChoice::automatic);
-  }
   return result;
 }
 
@@ -359,9 +378,10 @@ MethodChoice method_from(const std::string& name) {
 
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                       MethodChoice method) {
-  // Most boxes whose distance is needed are apart: GJK comes first.
-  if (are_boxes(a, b) && query != Query::distance && method != MethodChoice::gjk) {
-    return check_boxes(a, pose_a, b, pose_b, query);
+  if (method != MethodChoice::gjk && query != Query::distance && a.kind == ShapeKind::box && b.kind == ShapeKind::box) {
+    const bool measured = query == Query::depth;
+    const PairResult result = measured ? depth_of_boxes(a, pose_a, b, pose_b) : overlap_of_boxes(a, pose_a, b, pose_b);
+    if (result.outcome != Outcome::undecided) return result;
   }
   const bool needs_faces = method == MethodChoice::sat || !a.is_polytope() || !b.is_polytope();
   if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method);
