@@ -113,7 +113,8 @@ SATCHECK_INLINE Vec3 vec3(Lanes v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-SATCHECK_WIDE BoxContact contact_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
+  const Shape &a = m.a, &b = m.b;
   const Vec3 between = offset_between(a, pose_a, b, pose_b) + (middle_of(b, pose_b) - middle_of(a, pose_a));
   const Vec3 half_a = half_of(a), half_b = half_of(b);
   const PlacedBoxes boxes = placed_boxes(box_to_world(a, pose_a), half_a, box_to_world(b, pose_b), half_b, between,
@@ -121,12 +122,10 @@ SATCHECK_WIDE BoxContact contact_of_boxes(const Shape& a, const Pose& pose_a, co
   LeastOverlap least = least_overlap(boxes);
   BoxContact found;
   found.noise = proof_noise(boxes.scale, a, pose_a, b, pose_b) + error_of(a) + error_of(b);
-  found.scale = boxes.scale;
   found.sat.axis = vec3(least.axis);
   if (a.kind != ShapeKind::box) found.sat.axis = a.box->rotation * found.sat.axis;
   if (a.kind != ShapeKind::box || b.kind != ShapeKind::box) {
     // The vertices of the hulls give the figure its last digits.
-    const MinkowskiDifference m(a, pose_a, b, pose_b);
     least.penetration = dot(found.sat.axis, m.support(found.sat.axis).w);
   }
   const ContactPoints contact = contact_points(boxes, least);

@@ -267,12 +267,37 @@ CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairR
   return from_gjk_distance(m, g, std::fmax(g.lower, -sat.penetration));
 }
 
+// Two boxes: 15 axes, and GJK for a gap. Most boxes whose distance is needed are apart, and GJK comes first.
+CoreAnswer from_boxes(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b, Query query, double& noise,
+                      PairResult& result) {
+  const auto gap = [&](double lower_bound) {
+    const GjkResult g = gjk(m);
+    result.gjk_iterations += g.iterations;
+    return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
+  };
+  if (query == Query::distance) {
+    const CoreAnswer core = gap(-INFINITY);
+    if (core.upper < -m.support_error()) return core;
+  }
+  const BoxContact contact = contact_of_boxes(m, pose_a, pose_b);
+  result.axes_tested = contact.sat.axes_tested;
+  CoreAnswer core = from_sat(contact.sat);
+  if (query != Query::overlap && core.upper < -contact.noise) return gap(-core.upper);
+  noise = contact.noise;
+  if (query != Query::overlap) {
+    core.witness = contact.sole ? contact.witness : contact_region_centre(m, core.axis, core.value);
+  }
+  return core;
+}
+
 PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                           MethodChoice method) {
   const MinkowskiDifference m(a, pose_a, b, pose_b);
-  const double noise = proof_noise(m, pose_a, pose_b), margin = m.a.margin + m.b.margin;
+  const double margin = m.a.margin + m.b.margin;
+  double noise = proof_noise(m, pose_a, pose_b);
   PairResult result;
-  const bool by_sat = method == MethodChoice::sat && solid_polytopes(m);
+  const bool boxes = a.is_box() && b.is_box() && method != MethodChoice::gjk;
+  const bool by_sat = boxes || (method == MethodChoice::sat && solid_polytopes(m));
   if (query == Query::overlap && margin == 0 && !by_sat) {
     // For curved shapes, only pairs clearly away from touching. The bounds of a depth decide whether they touch.
     const PortalResult portal = seek_portal(m, m.curved ? noise + 4 * kCurvedFacetGap * m.scale : noise);
@@ -288,7 +313,9 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
       return result;
     }
   }
-  CoreAnswer core = by_sat ? from_sat_or_distance(m, query, result) : from_gjk(m, query, result);
+  CoreAnswer core = boxes    ? from_boxes(m, pose_a, pose_b, query, noise, result)
+                    : by_sat ? from_sat_or_distance(m, query, result)
+                             : from_gjk(m, query, result);
   write_stage(core, result);
   result.outcome = classify(core, m, noise);
   const bool in_balance = result.outcome == Outcome::touching || result.outcome == Outcome::undecided;
@@ -299,7 +326,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool polytopes = a.is_polytope() && b.is_polytope();
   if (!polytopes && core.has_axis) straighten(core);
   if (query != Query::overlap && core.has_axis) write_distance(a, pose_a, b, core, noise, result);
-  const double confirmed_below = core.method == Method::sat ? std::fmax(kShallow * m.scale, noise) : noise;
+  const double confirmed_below = core.method == Method::sat && !boxes ? std::fmax(kShallow * m.scale, noise) : noise;
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
@@ -312,58 +339,23 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   return result;
 }
 
-// Two boxes: 15 axes, and GJK for a gap. Most boxes whose distance is needed are apart, and GJK comes first.
-PairResult check_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query) {
-  PairResult result;
-  CoreAnswer core;
-  double noise = 0, scale = 0;
-  const auto measure_gap = [&](double lower_bound) {
-    const MinkowskiDifference m(a, pose_a, b, pose_b);
-    const GjkResult g = gjk(m);
-    result.gjk_iterations += g.iterations;
-    core = from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
-    noise = proof_noise(m, pose_a, pose_b);
-    scale = m.scale;
-  };
-  if (query == Query::distance) measure_gap(-INFINITY);
-  if (!(core.upper < -noise)) {
-    const BoxContact contact = contact_of_boxes(a, pose_a, b, pose_b);
-    result.axes_tested = contact.sat.axes_tested;
-    core = from_sat(contact.sat);
-    noise = contact.noise;
-    scale = contact.scale;
-    if (query != Query::overlap) {
-      if (core.upper < -noise) {
-        measure_gap(-core.upper);
-      } else if (contact.sole) {
-        core.witness = contact.witness;
-      } else {
-        core.witness = contact_region_centre({a, pose_a, b, pose_b}, core.axis, core.value);
-      }
-    }
-  }
-  write_stage(core, result);
-  result.outcome = core.upper < -noise ? Outcome::separated : Outcome::penetrating;
-  if (query != Query::overlap) write_distance(a, pose_a, b, core, noise, result);
-  const double widest = kWidestInterval * scale;
-  const bool in_doubt = core.lower <= noise && core.upper >= -noise;
-  const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
-  if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, result);
-  return result;
-}
-
 PairResult check_in_any_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                               MethodChoice method) {
   // Selected by index instead of a branch, because the order is unpredictable.
   const Shape* const shapes[2] = {&a, &b};
   const Pose* const poses[2] = {&pose_a, &pose_b};
   const bool swapped = !comes_before(a, pose_a, b, pose_b);
-  const Shape &first = *shapes[swapped], &second = *shapes[!swapped];
-  const Pose &pose_first = *poses[swapped], &pose_second = *poses[!swapped];
-  PairResult result = a.is_box() && b.is_box() && method != MethodChoice::gjk
-                          ? check_boxes(first, pose_first, second, pose_second, query)
-                          : check_in_order(first, pose_first, second, pose_second, query, method);
+  PairResult result = check_in_order(*shapes[swapped], *poses[swapped], *shapes[!swapped], *poses[!swapped], query, method);
   if (swapped) mirror(result);
+  return result;
+}
+
+// Two shapes of the kind `box`, by the shortest way if that decides.
+PairResult check_placed_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query) {
+  PairResult result = query == Query::depth ? depth_of_boxes(a, pose_a, b, pose_b) : overlap_of_boxes(a, pose_a, b, pose_b);
+  if (result.outcome == Outcome::undecided) {
+    result = check_in_any_order(a, pose_a, b, pose_b, query, MethodChoice::automatic);
+  }
   return result;
 }
 
@@ -379,9 +371,7 @@ MethodChoice method_from(const std::string& name) {
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                       MethodChoice method) {
   if (method != MethodChoice::gjk && query != Query::distance && a.kind == ShapeKind::box && b.kind == ShapeKind::box) {
-    const bool measured = query == Query::depth;
-    const PairResult result = measured ? depth_of_boxes(a, pose_a, b, pose_b) : overlap_of_boxes(a, pose_a, b, pose_b);
-    if (result.outcome != Outcome::undecided) return result;
+    return check_placed_boxes(a, pose_a, b, pose_b, query);
   }
   const bool needs_faces = method == MethodChoice::sat || !a.is_polytope() || !b.is_polytope();
   if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method);

@@ -140,7 +140,7 @@ void test_wide_contacts() {
   const Shape box = make_box({1, 1, 1});
   Pose beside;
   beside.translation = {1.5, 0.25, 0.125};
-  CHECK(!contact_of_boxes(box, {}, box, beside).sole);
+  CHECK(!contact_of_boxes({box, {}, box, beside}, {}, beside).sole);
   const PairResult r = depth(box, {}, box, beside);
   CHECK(r.method == Method::sat && r.distance == -0.5);
   CHECK(r.witness_a == (Vec3{1, 0.125, 0.0625}) && r.witness_b == (Vec3{0.5, 0.125, 0.0625}));
@@ -153,7 +153,7 @@ void test_hardly_turned() {
     Pose turned;
     turned.rotation = {{{1, -angle, 0}, {angle, 1, 0}, {0, 0, 1}}};
     turned.translation = {0.5, 0.25, 1.75};
-    const SatResult sat = contact_of_boxes(box, {}, box, turned).sat;
+    const SatResult sat = contact_of_boxes({box, {}, box, turned}, {}, turned).sat;
     CHECK(sat.penetration == 0.25);
     CHECK(sat.axis == (Vec3{0, 0, 1}));
   }
