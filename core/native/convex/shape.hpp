@@ -57,7 +57,7 @@ struct Shape {
   std::vector<EdgeArc> arcs;  // of a solid hull
   VertexLanes face_normals;   // of the polytope
   std::shared_ptr<LazyFaces> lazy_faces;  // of a hull without faces; copies share it
-  std::optional<BoxFrame> box;  // of a hull that is a box
+  std::shared_ptr<const BoxFrame> box;  // of a hull that is a box
 
   bool is_polytope() const { return kind == ShapeKind::hull || kind == ShapeKind::box; }
   bool is_box() const { return kind == ShapeKind::box || box; }
