@@ -66,7 +66,8 @@ std::optional<BoxFrame> find_box(std::vector<Vec3> corners) {
   }
   const double diagonal = norm(box.half);
   if (seen != 0xFF || !(box.error <= kRoundedBox * diagonal)) return std::nullopt;
-  box.error += kFrameError * diagonal;
+  const bool is_aligned = std::all_of(axes, axes + 3, [](Vec3 axis) { return max_abs(axis) == 1; });
+  if (!is_aligned) box.error += kFrameError * diagonal;
   return box;
 }
 
