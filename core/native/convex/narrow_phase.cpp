@@ -37,18 +37,10 @@ bool solid_polytopes(const MinkowskiDifference& m) {
   return is_solid(m.a) && is_solid(m.b);
 }
 
-// The witness points of an overlap are left to the caller.
-CoreAnswer from_sat(const SatResult& sat) {
-  CoreAnswer answer;
-  answer.lower = sat.lower;
-  answer.upper = answer.value = sat.penetration;
-  answer.axis = sat.axis;
-  answer.has_axis = true;
-  answer.method = Method::sat;
-  answer.feature = sat.feature;
-  answer.index_a = sat.index_a;
-  answer.index_b = sat.index_b;
-  return answer;
+bool are_boxes(const MinkowskiDifference& m) { return m.a.is_box() && m.b.is_box(); }
+
+bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
+  return method != MethodChoice::gjk && (are_boxes(m) || (method == MethodChoice::sat && solid_polytopes(m)));
 }
 
 // `lower_bound` of the distance may come from another stage than GJK. The upper bound is the distance of two points of
@@ -252,42 +244,40 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
   if (side == 0) result.distance = 0;
 }
 
-// A separating axis does not give the distance.
-CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
-  const SatResult sat = sat_polytopes(m, query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis);
-  result.axes_tested += sat.axes_tested;
-  CoreAnswer core = from_sat(sat);
-  if (query == Query::overlap) return core;
-  if (sat.penetration >= -m.support_error()) {
-    core.witness = contact_region_centre(m, sat.axis, sat.penetration);
-    return core;
-  }
-  const GjkResult g = gjk(m);
-  result.gjk_iterations += g.iterations;
-  return from_gjk_distance(m, g, std::fmax(g.lower, -sat.penetration));
-}
-
-// Two boxes: 15 axes, and GJK for a gap. Most boxes whose distance is needed are apart, and GJK comes first.
-CoreAnswer from_boxes(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b, Query query, double& noise,
-                      PairResult& result) {
+// A separating axis does not give the distance: GJK measures it. Most boxes whose distance is needed are apart, and GJK
+// comes first.
+CoreAnswer from_sat(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b, Query query, double& noise,
+                    PairResult& result) {
   const auto gap = [&](double lower_bound) {
     const GjkResult g = gjk(m);
     result.gjk_iterations += g.iterations;
     return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
   };
-  if (query == Query::distance) {
+  const bool boxes = are_boxes(m);
+  if (boxes && query == Query::distance) {
     const CoreAnswer core = gap(-INFINITY);
     if (core.upper < -m.support_error()) return core;
   }
-  const BoxContact contact = contact_of_boxes(m, pose_a, pose_b);
-  result.axes_tested = contact.sat.axes_tested;
-  CoreAnswer core = from_sat(contact.sat);
-  if (query != Query::overlap && core.upper < -contact.noise) return gap(-core.upper);
+  const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
+  const BoxContact contact =
+      boxes ? contact_of_boxes(m, pose_a, pose_b) : BoxContact{sat_polytopes(m, goal), {}, false, noise};
+  const SatResult& sat = contact.sat;
+  result.axes_tested += sat.axes_tested;
+  if (query != Query::overlap && sat.penetration < -contact.noise) return gap(-sat.penetration);
   noise = contact.noise;
+  CoreAnswer answer;
+  answer.lower = sat.lower;
+  answer.upper = answer.value = sat.penetration;
+  answer.axis = sat.axis;
+  answer.has_axis = true;
+  answer.method = Method::sat;
+  answer.feature = sat.feature;
+  answer.index_a = sat.index_a;
+  answer.index_b = sat.index_b;
   if (query != Query::overlap) {
-    core.witness = contact.sole ? contact.witness : contact_region_centre(m, core.axis, core.value);
+    answer.witness = contact.sole ? contact.witness : contact_region_centre(m, sat.axis, sat.penetration);
   }
-  return core;
+  return answer;
 }
 
 PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
@@ -296,8 +286,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const double margin = m.a.margin + m.b.margin;
   double noise = proof_noise(m, pose_a, pose_b);
   PairResult result;
-  const bool boxes = a.is_box() && b.is_box() && method != MethodChoice::gjk;
-  const bool by_sat = boxes || (method == MethodChoice::sat && solid_polytopes(m));
+  const bool by_sat = takes_sat(m, method);
   if (query == Query::overlap && margin == 0 && !by_sat) {
     // For curved shapes, only pairs clearly away from touching. The bounds of a depth decide whether they touch.
     const PortalResult portal = seek_portal(m, m.curved ? noise + 4 * kCurvedFacetGap * m.scale : noise);
@@ -313,9 +302,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
       return result;
     }
   }
-  CoreAnswer core = boxes    ? from_boxes(m, pose_a, pose_b, query, noise, result)
-                    : by_sat ? from_sat_or_distance(m, query, result)
-                             : from_gjk(m, query, result);
+  CoreAnswer core = by_sat ? from_sat(m, pose_a, pose_b, query, noise, result) : from_gjk(m, query, result);
   write_stage(core, result);
   result.outcome = classify(core, m, noise);
   const bool in_balance = result.outcome == Outcome::touching || result.outcome == Outcome::undecided;
@@ -326,7 +313,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool polytopes = a.is_polytope() && b.is_polytope();
   if (!polytopes && core.has_axis) straighten(core);
   if (query != Query::overlap && core.has_axis) write_distance(a, pose_a, b, core, noise, result);
-  const double confirmed_below = core.method == Method::sat && !boxes ? std::fmax(kShallow * m.scale, noise) : noise;
+  const double confirmed_below = core.method == Method::sat && !are_boxes(m) ? std::fmax(kShallow * m.scale, noise) : noise;
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
