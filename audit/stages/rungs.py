@@ -58,8 +58,9 @@ def _oriented_boxes(climb: core.Climb) -> tuple[str, str]:
 
 def _separating_axis(feature: str, a: int, b: int, tested: int) -> str:
     names = [f"{'xyz'[k]} of {body}" for k, body in ((a, "A"), (b, "B")) if k >= 0]
-    edges = feature == "edge-edge"
-    axis = f"edges {' and '.join(names)}" if edges else f"face normal {names[0]}"
+    axis = " across ".join(f"edge {name}" for name in names)
+    if feature != "edge-edge":
+        axis = f"face normal {names[0]}"
     return f"sat: {axis} separates, {tested} of 15 axes tested"
 
 
