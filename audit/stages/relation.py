@@ -16,7 +16,8 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
-from satcheck.report.report import OVERLAPS, Stage
+from satcheck.audit.stages.rungs import rungs_of
+from satcheck.report.report import OVERLAPS
 from satcheck.scene.inspect import MOST_AROUND
 
 if TYPE_CHECKING:
@@ -65,14 +66,14 @@ def settle(draft: Draft, climb: core.Climb | None = None) -> None:
 def apart_by_boxes(draft: Draft) -> bool:
     """Return whether the world boxes alone show a gap beyond `gap_limit`."""
     climb = _climb(draft.pair, "aabb")
-    draft.stages += climb.stages(Stage)
+    draft.stages += rungs_of(climb)
     _take(draft, climb)
     return climb.settled
 
 
 def _by_rungs(draft: Draft, climb: core.Climb) -> None:
     pair = draft.pair
-    draft.stages += climb.stages(Stage)
+    draft.stages += rungs_of(climb)
     if climb.settled or not pair.may("hull"):
         _take(draft, climb)
     elif pair.curved:

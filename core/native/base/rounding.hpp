@@ -53,9 +53,6 @@ inline constexpr double kParallelSquared = 1e-12;
 // Both shapes are then projected completely on their axis.
 inline constexpr double kArcUncertain = 1e-7;
 
-// An axis with a rounding error above this (radians) is no filter, and its exact sign is computed.
-inline constexpr double kTrustedAxis = 1e-6;
-
 // If SAT on hulls finds a penetration below this fraction of the scale, exact signs confirm it, because the stored
 // normal of a sliver face has a larger error than a support value.
 inline constexpr double kShallow = 1e-7;

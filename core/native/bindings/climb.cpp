@@ -13,11 +13,9 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
-#include <unordered_map>
 
 #include "bindings/tuples.hpp"
 #include "ladder/climb.hpp"
-#include "ladder/rung_words.hpp"
 #include "ladder/touch_proof.hpp"
 #include "ladder/words.hpp"
 
@@ -93,25 +91,9 @@ const T* if_known(const std::optional<T>& value) {
   return value ? &*value : nullptr;
 }
 
-// The Python string of a literal word, shared by all uses.
-PyObject* known_word(const char* word) {
-  static auto* const known = new std::unordered_map<const void*, PyObject*>;
-  PyObject*& text = (*known)[word];
-  if (text == nullptr) text = PyUnicode_InternFromString(word);
-  return text;
-}
-
-nb::list stages(const Climb& climb, nb::handle make) {
-  nb::list made;
-  for (const RungWords& words : words_of(climb)) {
-    const nb::object cost = nb::float_(static_cast<double>(words.nanoseconds) / 1000.0);
-    const nb::object detail = nb::steal(PyUnicode_FromStringAndSize(words.detail.data(), words.detail.size()));
-    PyObject* const given[] = {known_word(words.rung), known_word(words.result), cost.ptr(), detail.ptr()};
-    const nb::object stage = nb::steal(PyObject_Vectorcall(make.ptr(), given, 4, nullptr));
-    if (!stage.is_valid()) throw nb::python_error();
-    made.append(stage);
-  }
-  return made;
+std::tuple<const char*, int, int, int> box_axis(const Climb& climb) {
+  const SeparatingAxis& axis = climb.box_axis;
+  return {name_of(axis.feature), axis.axis_a, axis.axis_b, axis.tested};
 }
 
 std::optional<const char*> band_word(const std::optional<BandSide>& band) {
@@ -152,9 +134,13 @@ gap           of separate surfaces. gap_of_holes: the fill of a hole may be this
 box_gap       a proven lower bound of the gap of the world boxes; 0.0 if they meet.
 boxes         oriented boxes: "apart" by more than gap_limit, "meet", the reason why they prove no more than the world
               boxes ("sheared", "unturned"), or "".
-hulls         the depth of two convex bodies; else the distance of separate hulls, or the overlap.
+box_axis      the axis that separates them: "face-a", "face-b" or "edge-edge", the axes of A and of B (-1: none), and
+              how many of 15 axes were tested.
+hulls         the depth of two convex bodies (both_convex); else the distance of separate hulls, or the overlap.
+nesting       the relation of two convex bodies that overlap and whose boxes nest.
 triangles     the relation of the meshes.
-band_nanoseconds  the time of the touch band or the gap. stages() describes the rungs.)")
+nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, triangles; band_nanoseconds: of the touch
+              band or the gap.)")
       .def_prop_ro("relation",
                    [](const Climb& c) { return hole_in_the_way(c) ? "indeterminate" : name_of(c.verdict.relation); })
       .def_prop_ro("settled", [](const Climb& c) { return c.verdict.settled; })
@@ -173,10 +159,14 @@ band_nanoseconds  the time of the touch band or the gap. stages() describes the 
       .def_ro("gap_of_holes", &Climb::gap_of_holes)
       .def_ro("box_gap", &Climb::box_gap)
       .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); })
+      .def_prop_ro("box_axis", &box_axis)
+      .def_ro("both_convex", &Climb::both_convex)
+      .def_prop_ro("nesting",
+                   [](const Climb& c) { return c.nesting ? std::optional(name_of(*c.nesting)) : std::nullopt; })
       .def_prop_ro("hulls", [](const Climb& c) { return if_known(c.hulls); }, nb::rv_policy::reference_internal)
       .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); },
                    nb::rv_policy::reference_internal)
-      .def("stages", &stages, "make"_a, R"(The results of the rungs in words: make(rung, result, microseconds, detail) for each.)")
+      .def_ro("nanoseconds", &Climb::nanoseconds)
       .def_prop_ro("band_nanoseconds", [](const Climb& c) { return c.nanoseconds[kBand]; });
 }
 

@@ -94,8 +94,8 @@ lower, upper proven bounds of the signed distance, rounding included.
 normal       unit, from A to B. witness_a, witness_b: points on A and B with
              witness_b - witness_a = distance * normal. Moving A by distance * normal separates an overlap.
 method       the stage that decided: "portal", "sat", "gjk", "epa" or "exact".
-feature      the feature that decides: "face-a", "face-b", "edge-edge" (with index_a, index_b of the face
-             or edge; -1: none), "vertices" or "curved".)";
+feature      the feature that decides: "face-a", "face-b", "edge-edge" (with index_a, index_b of the face or edge;
+             of two boxes, of their axes; -1: none), "vertices" or "curved".)";
 
 void bind_pair_result(nb::module_& m) {
   nb::class_<PairResult>(m, "PairResult", kPairResultDoc)

@@ -109,7 +109,8 @@ that of the surfaces without fills.)")
                      return r.point ? std::optional(to_tuple(*r.point)) : std::nullopt;
                    })
       .def_ro("box_tests", &MeshRelation::box_tests)
-      .def_ro("triangle_tests", &MeshRelation::triangle_tests);
+      .def_ro("triangle_tests", &MeshRelation::triangle_tests)
+      .def_ro("edge_tests", &MeshRelation::edge_tests, "Of the outlines of prisms; None for other bodies.");
   m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil(),
         R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
 "touching", "penetrating" (interiors overlap, or a surface crosses a sheet), "contains" (b strictly inside a),

@@ -53,26 +53,22 @@ struct PlacedBoxes {
   double scale;             // bounds every coordinate of A - B
 };
 
-SATCHECK_INLINE PlacedBoxes placed_boxes(const MinkowskiDifference& m) {
-  const LaneMat3 b_in_a = lane_mat3(m.b_in_a.rotation);
-  return {b_in_a, transposed(b_in_a), three(m.b_in_a.translation), three(m.a.size), three(m.b.size), m.scale};
-}
-
-// The same bits as from MinkowskiDifference.
-SATCHECK_INLINE PlacedBoxes placed_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  const LaneMat3 of_a = lane_mat3(pose_a.rotation), of_b = lane_mat3(pose_b.rotation);
-  const Vec3* ra = pose_a.rotation.row;
-  const Vec3 between = pose_b.translation - pose_a.translation;
+// to_world: rotations from the frames of the boxes. between: from A's centre to B's, in the world. extents: the sum of
+// the largest half extents.
+SATCHECK_INLINE PlacedBoxes placed_boxes(const Mat3& a_to_world, Vec3 half_a, const Mat3& b_to_world, Vec3 half_b,
+                                         Vec3 between, double extents) {
+  const LaneMat3 of_a = lane_mat3(a_to_world), of_b = lane_mat3(b_to_world);
+  const Vec3* ra = a_to_world.row;
   PlacedBoxes boxes;
   boxes.b_in_a = {{of_b.row[0] * ra[0].x + of_b.row[1] * ra[1].x + of_b.row[2] * ra[2].x,
                    of_b.row[0] * ra[0].y + of_b.row[1] * ra[1].y + of_b.row[2] * ra[2].y,
                    of_b.row[0] * ra[0].z + of_b.row[1] * ra[1].z + of_b.row[2] * ra[2].z}};
   boxes.a_in_b = transposed(boxes.b_in_a);
   boxes.offset = of_a.row[0] * between.x + of_a.row[1] * between.y + of_a.row[2] * between.z;
-  boxes.half_a = three(a.size);
-  boxes.half_b = three(b.size);
+  boxes.half_a = three(half_a);
+  boxes.half_b = three(half_b);
   const Lanes offset = abs(boxes.offset);
-  boxes.scale = a.extent + b.extent + larger(offset[0], larger(offset[1], offset[2]));
+  boxes.scale = extents + larger(offset[0], larger(offset[1], offset[2]));
   return boxes;
 }
 

@@ -26,7 +26,28 @@ SATCHECK_INLINE OrderedBoxes in_order(const Shape& a, const Pose& pose_a, const 
   return {shapes[swapped], shapes[!swapped], poses[swapped], poses[!swapped], swapped};
 }
 
-SATCHECK_INLINE PlacedBoxes placed_boxes(const OrderedBoxes& o) { return placed_boxes(*o.a, *o.pose_a, *o.b, *o.pose_b); }
+// A hull that is a box has a frame of its own, turned against that of the shape.
+Mat3 box_to_world(const Shape& s, const Pose& pose) {
+  if (s.kind == ShapeKind::box) return pose.rotation;
+  Mat3 turned;
+  for (int i = 0; i < 3; ++i) turned.row[i] = transpose_times(s.box->rotation, pose.rotation.row[i]);
+  return turned;
+}
+
+Vec3 half_of(const Shape& s) { return s.kind == ShapeKind::box ? s.size : s.box->half; }
+
+double error_of(const Shape& s) { return s.box ? s.box->error : 0; }
+
+// From the origin of the core to the middle of the box, in the world.
+Vec3 middle_of(const Shape& s, const Pose& pose) {
+  return s.kind == ShapeKind::box ? Vec3{} : pose.rotation * s.box->centre;
+}
+
+// Not for hulls.
+SATCHECK_INLINE PlacedBoxes placed_boxes(const OrderedBoxes& o) {
+  const Vec3 between = o.pose_b->translation - o.pose_a->translation;
+  return placed_boxes(o.pose_a->rotation, o.a->size, o.pose_b->rotation, o.b->size, between, o.a->extent + o.b->extent);
+}
 
 SATCHECK_INLINE double proof_noise(double scale, const OrderedBoxes& o) {
   return proof_noise(scale, *o.a, *o.pose_a, *o.b, *o.pose_b);
@@ -92,14 +113,35 @@ SATCHECK_INLINE Vec3 vec3(Lanes v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m) {
-  const PlacedBoxes boxes = placed_boxes(m);
-  const LeastOverlap least = least_overlap(boxes);
+SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
+  const Shape &a = m.a, &b = m.b;
+  const Vec3 between = offset_between(a, pose_a, b, pose_b) + (middle_of(b, pose_b) - middle_of(a, pose_a));
+  const Vec3 half_a = half_of(a), half_b = half_of(b);
+  const PlacedBoxes boxes = placed_boxes(box_to_world(a, pose_a), half_a, box_to_world(b, pose_b), half_b, between,
+                                         max_abs(half_a) + max_abs(half_b));
+  LeastOverlap least = least_overlap(boxes);
+  BoxContact found;
+  found.noise = proof_noise(boxes.scale, a, pose_a, b, pose_b) + error_of(a) + error_of(b);
+  found.sat.axis = vec3(least.axis);
+  if (a.kind != ShapeKind::box) found.sat.axis = a.box->rotation * found.sat.axis;
+  if (a.kind != ShapeKind::box || b.kind != ShapeKind::box) {
+    // The vertices of the hulls give the figure its last digits.
+    least.penetration = dot(found.sat.axis, m.support(found.sat.axis).w);
+  }
   const ContactPoints contact = contact_points(boxes, least);
+  found.witness = {vec3(contact.on_a), vec3(contact.on_b)};
+  if (a.kind != ShapeKind::box) {
+    for (Vec3* p : {&found.witness.a, &found.witness.b}) *p = a.box->rotation * *p + a.box->centre;
+  }
+  found.sole = contact.sole;
   const PairFeature feature = feature_of(least.kind, least.i, least.k, false);
-  return {{least.penetration, least.lower, vec3(least.axis), feature.feature, feature.index_a, feature.index_b, 15},
-          {vec3(contact.on_a), vec3(contact.on_b)},
-          contact.sole};
+  found.sat.penetration = least.penetration;
+  found.sat.lower = least.lower;
+  found.sat.axes_tested = 15;
+  found.sat.feature = feature.feature;
+  found.sat.index_a = feature.index_a;
+  found.sat.index_b = feature.index_b;
+  return found;
 }
 
 SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/rounding.hpp"
+#include "convex/exact_distance.hpp"
 
 namespace satcheck {
 namespace {
@@ -26,6 +27,8 @@ class ExactPolytope {
  public:
   explicit ExactPolytope(const ExactDifference& difference) : difference_(difference) { start(); }
 
+  // A - B spans no volume; there are no facets.
+  bool is_flat() const { return facets_.empty(); }
   const Facet& nearest() const;
   bool reaches_beyond(const ExactSupport& w, const Facet& f) const { return side(w, f) > 0; }
   void expand(const ExactSupport& w);
@@ -69,7 +72,6 @@ const Facet& ExactPolytope::nearest() const {
 // Adds the point to the first tetrahedron if it adds a dimension.
 void ExactPolytope::offer(const ExactSupport& p) {
   const auto edge = [&](std::size_t i) { return vertices_[i].w - vertices_[0].w; };
-  if (vertices_.size() == 4) return;
   bool spans = true;
   if (!vertices_.empty()) {
     const DyadicVec e = p.w - vertices_[0].w;
@@ -81,15 +83,16 @@ void ExactPolytope::offer(const ExactSupport& p) {
 }
 
 void ExactPolytope::start() {
-  for (double sign : {1.0, -1.0}) {
-    for (Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-      offer(difference_.support(DyadicVec(axis * sign)));
-    }
+  for (Vec3 axis : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+    if (vertices_.size() < 4) offer(difference_.support(DyadicVec(axis)));
   }
   // These directions span A - B from its first vertex, whatever its shape.
   const auto corner = vertices_.front();
-  for (std::uint32_t i = 0; i < difference_.vertices_a().size(); ++i) offer(difference_.at(i, corner.b));
-  for (std::uint32_t i = 0; i < difference_.vertices_b().size(); ++i) offer(difference_.at(corner.a, i));
+  const std::size_t count_a = difference_.vertices_a().size(), count = count_a + difference_.vertices_b().size();
+  for (std::uint32_t i = 0; i < count && vertices_.size() < 4; ++i) {
+    offer(i < count_a ? difference_.at(i, corner.b) : difference_.at(corner.a, static_cast<std::uint32_t>(i - count_a)));
+  }
+  if (vertices_.size() < 4) return;
   const DyadicVec& p = vertices_[0].w;
   const DyadicVec n = cross(vertices_[1].w - p, vertices_[2].w - p);
   if (dot(n, vertices_[3].w - p).sign() > 0) std::swap(vertices_[1], vertices_[2]);
@@ -153,29 +156,35 @@ ExactFigure ExactPolytope::figure(const Facet& nearest) const {
   return figure;
 }
 
-// Expands the polytope until the whole difference lies behind the nearest facet. The depth is the distance of that
-// facet.
-const Facet& expand_fully(ExactPolytope& polytope, const ExactDifference& difference) {
-  for (;;) {
-    const Facet& nearest = polytope.nearest();
-    const ExactSupport w = difference.support(nearest.normal);
-    if (!polytope.reaches_beyond(w, nearest)) return nearest;
-    polytope.expand(w);
-  }
+// The sign of height - length |normal|; the length is not negative.
+int compare(const Dyadic& height, const DyadicVec& normal, const Dyadic& length) {
+  if (height.sign() < 0 || length.sign() == 0) return height.sign();
+  return (height * height - length * length * dot(normal, normal)).sign();
 }
 
 }  // namespace
 
 ExactFigure exact_depth(const ExactDifference& difference) {
   ExactPolytope polytope(difference);
-  return polytope.figure(expand_fully(polytope, difference));
+  for (;;) {
+    const Facet& nearest = polytope.nearest();
+    const ExactSupport w = difference.support(nearest.normal);
+    if (!polytope.reaches_beyond(w, nearest)) return polytope.figure(nearest);
+    polytope.expand(w);
+  }
 }
 
 int compare_depth(const ExactDifference& difference, const Dyadic& length) {
-  if (length.sign() <= 0) return 1;
   ExactPolytope polytope(difference);
-  const Facet& nearest = expand_fully(polytope, difference);
-  return (nearest.height * nearest.height - length * length * dot(nearest.normal, nearest.normal)).sign();
+  if (polytope.is_flat()) return length.sign() > 0 ? -1 : -compare_distance(difference, length);
+  for (;;) {
+    const Facet& nearest = polytope.nearest();
+    if (compare(nearest.height, nearest.normal, length) > 0) return 1;
+    const ExactSupport w = difference.support(nearest.normal);
+    const int reach = compare(dot(nearest.normal, w.w), nearest.normal, length);
+    if (reach < 0 || !polytope.reaches_beyond(w, nearest)) return reach;
+    polytope.expand(w);
+  }
 }
 
 }  // namespace satcheck

@@ -27,7 +27,7 @@ Vec3 rounded_unit(const DyadicVec& v) {
   return share * (1 / norm(share));
 }
 
-ExactDifference::ExactDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) : a_(a), b_(b) {
+ExactDifference::ExactDifference(std::vector<Vec3> a, std::vector<Vec3> b) : a_(std::move(a)), b_(std::move(b)) {
   Aabb box_a, box_b;
   for (Vec3 p : a_) box_a.include(p);
   for (Vec3 p : b_) box_b.include(p);

@@ -39,8 +39,8 @@ struct ExactSupport {
 
 class ExactDifference {
  public:
-  // World vertices; the vectors must outlive this.
-  ExactDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
+  // World vertices.
+  ExactDifference(std::vector<Vec3> a, std::vector<Vec3> b);
 
   ExactSupport at(std::uint32_t a, std::uint32_t b) const;
   // The vertex farthest along an exact direction, which is not 0.
@@ -54,8 +54,7 @@ class ExactDifference {
  private:
   static std::uint32_t farthest(const std::vector<Vec3>& points, const DyadicVec& direction, Vec3 unit);
 
-  const std::vector<Vec3>& a_;
-  const std::vector<Vec3>& b_;
+  std::vector<Vec3> a_, b_;
   double scale_ = 0;
 };
 

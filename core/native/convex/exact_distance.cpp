@@ -46,7 +46,7 @@ std::optional<Nearest> optimum(std::vector<ExactSupport> carriers, const std::ve
   return nearest;
 }
 
-// The nearest point of a simplex that does not contain the origin. It lies on a vertex, an edge or a face.
+// The nearest point of a simplex, on a vertex, an edge or a face. Empty if the origin lies inside.
 std::optional<Nearest> nearest_in(const std::vector<ExactSupport>& simplex) {
   for (int size = 1; size <= 3; ++size) {
     for (unsigned subset = 1; subset < 1u << simplex.size(); ++subset) {
@@ -61,11 +61,11 @@ std::optional<Nearest> nearest_in(const std::vector<ExactSupport>& simplex) {
   return std::nullopt;
 }
 
-// The nearest point once a support point is there that improves it.
-Nearest nearer(const Nearest& nearest, const ExactSupport& w) {
+// Once there is a support point that improves the nearest point. Empty if the simplex contains the origin.
+std::optional<Nearest> nearer(const Nearest& nearest, const ExactSupport& w) {
   std::vector<ExactSupport> simplex = nearest.carriers;
   simplex.push_back(w);
-  return *nearest_in(simplex);
+  return nearest_in(simplex);
 }
 
 }  // namespace
@@ -81,23 +81,25 @@ ExactFigure exact_distance(const ExactDifference& difference) {
       place_witnesses(figure, difference, nearest.carriers, nearest.weights);
       return figure;
     }
-    nearest = nearer(nearest, w);
+    nearest = *nearer(nearest, w);
   }
 }
 
 int compare_distance(const ExactDifference& difference, const Dyadic& length) {
   if (length.sign() < 0) return 1;
-  Nearest nearest = *nearest_in({difference.at(0, 0)});
+  std::optional<Nearest> nearest = nearest_in({difference.at(0, 0)});
   for (;;) {
-    const Dyadic squared = dot(nearest.point, nearest.point), limit = length * length * nearest.sum * nearest.sum;
+    const Dyadic squared = nearest ? dot(nearest->point, nearest->point) : Dyadic();
+    if (squared.sign() == 0) return -length.sign();
+    const Dyadic limit = length * length * nearest->sum * nearest->sum;
     const int upper = (squared - limit).sign();
     if (upper < 0) return -1;
-    const ExactSupport w = difference.support(-nearest.point);
-    const Dyadic along = dot(nearest.point, w.w) * nearest.sum;
+    const ExactSupport w = difference.support(-nearest->point);
+    const Dyadic along = dot(nearest->point, w.w) * nearest->sum;
     if ((along - squared).sign() >= 0) return upper;
     // All of A - B lies beyond the plane through w.
     if (along.sign() > 0 && (along * along - limit * squared).sign() > 0) return 1;
-    nearest = nearer(nearest, w);
+    nearest = nearer(*nearest, w);
   }
 }
 

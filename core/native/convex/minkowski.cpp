@@ -15,16 +15,14 @@ double sum_of_differences(double a, double b, double c, double d) {
   return static_cast<double>(exact_sum(b, -a) + exact_sum(d, -c));
 }
 
-// The vector from A's core origin to B's, world axes. It keeps its digits far from the world's origin, and also if the
-// translations cancel large offsets of the hulls from their own origins.
+}  // namespace
+
 Vec3 offset_between(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const Vec3 origin_a = pose_a.rotation * a.origin, origin_b = pose_b.rotation * b.origin;
   const Vec3 &ta = pose_a.translation, &tb = pose_b.translation;
   return {sum_of_differences(ta.x, tb.x, origin_a.x, origin_b.x), sum_of_differences(ta.y, tb.y, origin_a.y, origin_b.y),
           sum_of_differences(ta.z, tb.z, origin_a.z, origin_b.z)};
 }
-
-}  // namespace
 
 MinkowskiDifference::MinkowskiDifference(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
                                          const Pose& pose_b)

@@ -44,6 +44,10 @@ struct MinkowskiDifference {
   double support_error() const { return (curved ? kCurvedSupportError : kSupportError) * scale; }
 };
 
+// The vector from the origin of A's core to that of B's, world axes. It keeps its digits far from the world's origin,
+// and also if the translations cancel large offsets of the hulls from their own origins.
+Vec3 offset_between(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
+
 // A's frame, with the recentred origin of a hull: p_world = placement * p_core.
 Pose core_placement(const Shape& shape, const Pose& pose);
 

@@ -10,7 +10,6 @@
 #include "convex/epa.hpp"
 #include "convex/exact_depth.hpp"
 #include "convex/exact_distance.hpp"
-#include "convex/exact_pair.hpp"
 #include "convex/pair_order.hpp"
 #include "convex/portal.hpp"
 #include "convex/proof_noise.hpp"
@@ -38,31 +37,10 @@ bool solid_polytopes(const MinkowskiDifference& m) {
   return is_solid(m.a) && is_solid(m.b);
 }
 
-bool are_boxes(const Shape& a, const Shape& b) { return a.kind == ShapeKind::box && b.kind == ShapeKind::box; }
+bool are_boxes(const MinkowskiDifference& m) { return m.a.is_box() && m.b.is_box(); }
 
 bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
-  if (method == MethodChoice::gjk) return false;
-  return are_boxes(m.a, m.b) || (method == MethodChoice::sat && solid_polytopes(m));
-}
-
-CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& result) {
-  const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
-  const BoxContact contact = are_boxes(m.a, m.b) ? contact_of_boxes(m) : BoxContact{sat_polytopes(m, goal), {}, false};
-  const SatResult& sat = contact.sat;
-  result.axes_tested += sat.axes_tested;
-  CoreAnswer answer;
-  answer.lower = sat.lower;
-  answer.upper = answer.value = sat.penetration;
-  answer.axis = sat.axis;
-  answer.has_axis = true;
-  answer.method = Method::sat;
-  answer.feature = sat.feature;
-  answer.index_a = sat.index_a;
-  answer.index_b = sat.index_b;
-  if (query != Query::overlap && sat.penetration >= -m.support_error()) {
-    answer.witness = contact.sole ? contact.witness : contact_region_centre(m, sat.axis, sat.penetration);
-  }
-  return answer;
+  return method != MethodChoice::gjk && (are_boxes(m) || (method == MethodChoice::sat && solid_polytopes(m)));
 }
 
 // `lower_bound` of the distance may come from another stage than GJK. The upper bound is the distance of two points of
@@ -142,7 +120,6 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
     case EpaResult::Status::stalled:
       break;
   }
-  if (solid_polytopes(m)) return from_sat(m, Query::depth, result);
   answer.lower = std::fmax(e.lower, -g.upper);
   answer.has_axis = std::isfinite(e.upper);
   answer.witness = overlap_witness(m, e);
@@ -187,22 +164,34 @@ double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose&
   return proof_noise(m.scale, m.a, pose_a, m.b, pose_b);
 }
 
-void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const Pose& pose_a, double noise,
+void write_stage(const CoreAnswer& core, PairResult& result) {
+  result.method = core.method;
+  result.feature = core.feature;
+  result.index_a = core.index_a;
+  result.index_b = core.index_b;
+}
+
+void write_distance(const Shape& a, const Pose& pose_a, const Shape& b, const CoreAnswer& core, double noise,
                     PairResult& result) {
-  const double margin = m.a.margin + m.b.margin;
-  const Pose to_world = core_placement(m.a, pose_a);
+  const double margin = a.margin + b.margin;
+  const Pose to_world = core_placement(a, pose_a);
   result.has_distance = true;
   result.distance = -(core.value + margin);
   result.lower = -(core.upper + margin) - noise;
   result.upper = -(core.lower + margin) + noise;
   result.normal = to_world.rotation * core.axis;
-  result.witness_a = to_world * (core.witness.a + core.axis * m.a.margin);
-  result.witness_b = to_world * (core.witness.b - core.axis * m.b.margin);
+  result.witness_a = to_world * (core.witness.a + core.axis * a.margin);
+  result.witness_b = to_world * (core.witness.b - core.axis * b.margin);
 }
 
+Outcome outcome_of(int sign_of_depth) {
+  return sign_of_depth < 0 ? Outcome::separated : sign_of_depth > 0 ? Outcome::penetrating : Outcome::touching;
+}
+
+ExactDifference difference_of(const WorldHull& a, const WorldHull& b) { return {a.vertices(), b.vertices()}; }
+
 // Computes the figure without float64 errors. The outcome is known and not touching.
-void measure_exactly(const Polytope& a, const Polytope& b, PairResult& result) {
-  const ExactDifference difference(a.vertices, b.vertices);
+void measure_exactly(const ExactDifference& difference, PairResult& result) {
   const bool apart = result.outcome == Outcome::separated;
   const ExactFigure figure = apart ? exact_distance(difference) : exact_depth(difference);
   result.distance = apart ? figure.value : -figure.value;
@@ -224,11 +213,11 @@ std::optional<Outcome> outcome_in_place(const Shape& a, const Pose& pose_a, cons
 // Decides exactly what float64 left open about two polytopes: the sign, or a figure with wide bounds. Most pairs in
 // doubt are flush neighbours, so the faces along `axis` (from A to B, in the frame of A) come first.
 void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt, Vec3 axis,
-                    double noise, PairResult& result) {
+                    PairResult& result) {
   const WorldHull hull_a(a, pose_a), hull_b(b, pose_b);
   if (in_doubt) {
     const std::optional<Outcome> by_face = outcome_by_face(hull_a, hull_b, pose_a.rotation * axis);
-    result.outcome = by_face ? *by_face : decide_exactly(hull_a.polytope(), hull_b.polytope(), 2 * noise);
+    result.outcome = by_face ? *by_face : outcome_of(compare_depth(difference_of(hull_a, hull_b), Dyadic()));
     result.method = Method::exact;
     result.reason = Reason::none;
   }
@@ -236,18 +225,14 @@ void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Po
   if (result.outcome == Outcome::touching) {
     result.distance = result.lower = result.upper = 0;
   } else {
-    measure_exactly(hull_a.polytope(), hull_b.polytope(), result);
+    measure_exactly(difference_of(hull_a, hull_b), result);
   }
 }
 
 // The same for cores of vertices with a margin: the bounds follow the sign.
-void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double noise,
-                  PairResult& result) {
-  const Polytope core_a = WorldHull(a, pose_a).polytope(), core_b = WorldHull(b, pose_b).polytope();
-  const bool cores_meet = decide_exactly(core_a, core_b, 2 * noise) != Outcome::separated;
-  const ExactDifference difference(core_a.vertices, core_b.vertices);
-  const int side = cores_meet ? -1 : compare_distance(difference, Dyadic(a.margin) + Dyadic(b.margin));
-  result.outcome = side > 0 ? Outcome::separated : side < 0 ? Outcome::penetrating : Outcome::touching;
+void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, PairResult& result) {
+  const int side = compare_distance({world_points(a, pose_a), world_points(b, pose_b)}, Dyadic(a.margin) + Dyadic(b.margin));
+  result.outcome = outcome_of(-side);
   result.method = Method::exact;
   result.reason = Reason::none;
   if (!result.has_distance) return;
@@ -259,34 +244,49 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
   if (side == 0) result.distance = 0;
 }
 
-// A separating axis does not give the distance. For boxes whose distance is needed, the distance is computed first.
-CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
-  const bool distance_first = query == Query::distance && are_boxes(m.a, m.b);
-  const auto distance = [&](double lower_bound) {
+// A separating axis does not give the distance: GJK measures it. Most boxes whose distance is needed are apart, and GJK
+// comes first.
+CoreAnswer from_sat(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b, Query query, double& noise,
+                    PairResult& result) {
+  const auto gap = [&](double lower_bound) {
     const GjkResult g = gjk(m);
     result.gjk_iterations += g.iterations;
     return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
   };
-  if (distance_first) {
-    const CoreAnswer core = distance(-INFINITY);
+  const bool boxes = are_boxes(m);
+  if (boxes && query == Query::distance) {
+    const CoreAnswer core = gap(-INFINITY);
     if (core.upper < -m.support_error()) return core;
   }
-  const CoreAnswer core = from_sat(m, query, result);
-  const bool apart = core.upper < -m.support_error();
-  return query != Query::overlap && apart ? distance(-core.upper) : core;
+  const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
+  const BoxContact contact =
+      boxes ? contact_of_boxes(m, pose_a, pose_b) : BoxContact{sat_polytopes(m, goal), {}, false, noise};
+  const SatResult& sat = contact.sat;
+  result.axes_tested += sat.axes_tested;
+  if (query != Query::overlap && sat.penetration < -contact.noise) return gap(-sat.penetration);
+  noise = contact.noise;
+  CoreAnswer answer;
+  answer.lower = sat.lower;
+  answer.upper = answer.value = sat.penetration;
+  answer.axis = sat.axis;
+  answer.has_axis = true;
+  answer.method = Method::sat;
+  answer.feature = sat.feature;
+  answer.index_a = sat.index_a;
+  answer.index_b = sat.index_b;
+  if (query != Query::overlap) {
+    answer.witness = contact.sole ? contact.witness : contact_region_centre(m, sat.axis, sat.penetration);
+  }
+  return answer;
 }
 
 PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                           MethodChoice method) {
   const MinkowskiDifference m(a, pose_a, b, pose_b);
-  const double noise = proof_noise(m, pose_a, pose_b), margin = m.a.margin + m.b.margin;
+  const double margin = m.a.margin + m.b.margin;
+  double noise = proof_noise(m, pose_a, pose_b);
   PairResult result;
   const bool by_sat = takes_sat(m, method);
-  if (by_sat && query == Query::overlap && are_boxes(m.a, m.b)) {
-    result.axes_tested = 15;  // overlap_of_boxes() did not decide
-    settle_exactly(a, pose_a, b, pose_b, true, m.b_in_a.translation, noise, result);
-    return result;
-  }
   if (query == Query::overlap && margin == 0 && !by_sat) {
     // For curved shapes, only pairs clearly away from touching. The bounds of a depth decide whether they touch.
     const PortalResult portal = seek_portal(m, m.curved ? noise + 4 * kCurvedFacetGap * m.scale : noise);
@@ -302,11 +302,8 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
       return result;
     }
   }
-  CoreAnswer core = by_sat ? from_sat_or_distance(m, query, result) : from_gjk(m, query, result);
-  result.method = core.method;
-  result.feature = core.feature;
-  result.index_a = core.index_a;
-  result.index_b = core.index_b;
+  CoreAnswer core = by_sat ? from_sat(m, pose_a, pose_b, query, noise, result) : from_gjk(m, query, result);
+  write_stage(core, result);
   result.outcome = classify(core, m, noise);
   const bool in_balance = result.outcome == Outcome::touching || result.outcome == Outcome::undecided;
   if (m.curved && core.has_axis && (query != Query::overlap || in_balance)) {
@@ -315,15 +312,15 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   }
   const bool polytopes = a.is_polytope() && b.is_polytope();
   if (!polytopes && core.has_axis) straighten(core);
-  if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
-  const double confirmed_below = core.method == Method::sat && !are_boxes(m.a, m.b) ? std::fmax(kShallow * m.scale, noise) : noise;
+  if (query != Query::overlap && core.has_axis) write_distance(a, pose_a, b, core, noise, result);
+  const double confirmed_below = core.method == Method::sat && !are_boxes(m) ? std::fmax(kShallow * m.scale, noise) : noise;
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
   if (polytopes) {
-    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, noise, result);
+    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, result);
   } else if (in_doubt && !m.curved) {
-    settle_grown(a, pose_a, b, pose_b, noise, result);
+    settle_grown(a, pose_a, b, pose_b, result);
   }
   if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
   return result;
@@ -340,8 +337,9 @@ PairResult check_in_any_order(const Shape& a, const Pose& pose_a, const Shape& b
   return result;
 }
 
-PairResult check_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query) {
-  PairResult result = query == Query::overlap ? overlap_of_boxes(a, pose_a, b, pose_b) : depth_of_boxes(a, pose_a, b, pose_b);
+// Two shapes of the kind `box`, by the shortest way if that decides.
+PairResult check_placed_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query) {
+  PairResult result = query == Query::depth ? depth_of_boxes(a, pose_a, b, pose_b) : overlap_of_boxes(a, pose_a, b, pose_b);
   if (result.outcome == Outcome::undecided) {
     result = check_in_any_order(a, pose_a, b, pose_b, query, MethodChoice::automatic);
   }
@@ -359,9 +357,8 @@ MethodChoice method_from(const std::string& name) {
 
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                       MethodChoice method) {
-  // Most boxes whose distance is needed are apart: GJK comes first.
-  if (are_boxes(a, b) && query != Query::distance && method != MethodChoice::gjk) {
-    return check_boxes(a, pose_a, b, pose_b, query);
+  if (method != MethodChoice::gjk && query != Query::distance && a.kind == ShapeKind::box && b.kind == ShapeKind::box) {
+    return check_placed_boxes(a, pose_a, b, pose_b, query);
   }
   const bool needs_faces = method == MethodChoice::sat || !a.is_polytope() || !b.is_polytope();
   if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method);

@@ -13,6 +13,13 @@ namespace satcheck {
 
 namespace {
 
+// Three corners of face f, spread around it, counter-clockwise seen from outside. No corners of a face are in line.
+Triangle corners_of(const Polytope& p, std::size_t f) {
+  const std::uint32_t* corner = p.face_vertex.data() + p.face_offset[f];
+  const std::uint32_t count = p.face_offset[f + 1] - p.face_offset[f];
+  return {corner[0], corner[count / 3], corner[2 * count / 3]};
+}
+
 // A face of a hull, and its plane.
 struct Face {
   const WorldHull& hull;
@@ -114,12 +121,6 @@ std::optional<Outcome> outcome_if_flush(const Face& of_a, const Face& of_b) {
 }
 
 }  // namespace
-
-Triangle corners_of(const Polytope& p, std::size_t f) {
-  const std::uint32_t* corner = p.face_vertex.data() + p.face_offset[f];
-  const std::uint32_t count = p.face_offset[f + 1] - p.face_offset[f];
-  return {corner[0], corner[count / 3], corner[2 * count / 3]};
-}
 
 std::optional<Outcome> outcome_by_face(const WorldHull& a, const WorldHull& b, Vec3 axis) {
   const std::optional<Face> of_a = face_along(a, axis), of_b = face_along(b, -axis);

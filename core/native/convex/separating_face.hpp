@@ -15,7 +15,4 @@ namespace satcheck {
 // them, and they have none. Empty: neither face separates, which proves nothing.
 std::optional<Outcome> outcome_by_face(const WorldHull& a, const WorldHull& b, Vec3 axis);
 
-// Three corners of face f, spread around it, counter-clockwise seen from outside. No corners of a face are in line.
-Triangle corners_of(const Polytope& p, std::size_t f);
-
 }  // namespace satcheck

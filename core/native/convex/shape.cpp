@@ -93,6 +93,7 @@ Shape make_hull(Polytope polytope) {
   const std::array<Vec3, 6> ends = skew_ends(shape.polytope.vertices);
   shape.inside[0] = weighted_mean(ends, {11, 13, 17, 22, 19, 30});
   shape.inside[1] = weighted_mean(ends, {29, 12, 15, 21, 13, 25});
+  if (const auto box = find_box(shape.polytope.vertices)) shape.box = std::make_shared<BoxFrame>(*box);
   return shape;
 }
 
@@ -142,6 +143,7 @@ Shape make_box(Vec3 half_extents) {
   Shape shape = make_hull(corners);
   shape.kind = ShapeKind::box;
   shape.size = half_extents;
+  shape.box.reset();
   return shape;
 }
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <string>
 
+#include "convex/box_frame.hpp"
 #include "convex/polytope.hpp"
 #include "convex/support_map.hpp"
 
@@ -57,8 +57,10 @@ struct Shape {
   std::vector<EdgeArc> arcs;  // of a solid hull
   VertexLanes face_normals;   // of the polytope
   std::shared_ptr<LazyFaces> lazy_faces;  // of a hull without faces; copies share it
+  std::shared_ptr<const BoxFrame> box;  // of a hull that is a box
 
   bool is_polytope() const { return kind == ShapeKind::hull || kind == ShapeKind::box; }
+  bool is_box() const { return kind == ShapeKind::box || box; }
 };
 
 // Points (n >= 1) in any order; the shape is their convex hull, computed exactly.

@@ -4,17 +4,14 @@
 
 namespace satcheck {
 
-namespace {
-
-Polytope moved_hull(const Shape& shape, const Pose& pose) {
-  if (shape.kind == ShapeKind::sphere) return convex_hull({pose.translation});
-  if (shape.kind == ShapeKind::capsule) return convex_hull({pose * Vec3{0, 0, -shape.size.z}, pose * Vec3{0, 0, shape.size.z}});
-  std::vector<Vec3> vertices = shape.polytope.vertices;
-  for (Vec3& p : vertices) p = pose * (p + shape.origin);
-  return convex_hull(vertices);
+std::vector<Vec3> world_points(const Shape& shape, const Pose& pose) {
+  if (shape.kind == ShapeKind::sphere) return {pose.translation};
+  if (shape.kind == ShapeKind::capsule) return {pose * Vec3{0, 0, -shape.size.z}, pose * Vec3{0, 0, shape.size.z}};
+  std::vector<Vec3> points = shape.polytope.vertices;
+  const bool moved = !is_in_place(shape, pose);
+  for (Vec3& p : points) p = moved ? pose * (p + shape.origin) : p + shape.origin;
+  return points;
 }
-
-}  // namespace
 
 bool is_in_place(const Shape& shape, const Pose& pose) {
   return shape.is_polytope() && pose.rotation == Mat3{} && pose.translation == Vec3{};
@@ -24,14 +21,10 @@ WorldHull::WorldHull(const Shape& shape, const Pose& pose) {
   if (is_in_place(shape, pose)) {
     in_place_ = &with_faces(shape);
   } else {
-    moved_ = make_hull(moved_hull(shape, pose));
+    moved_ = make_hull(world_points(shape, pose));
   }
 }
 
-Polytope WorldHull::polytope() const {
-  Polytope hull = shape().polytope;
-  for (Vec3& p : hull.vertices) p = p + shape().origin;
-  return hull;
-}
+std::vector<Vec3> WorldHull::vertices() const { return world_points(shape(), {}); }
 
 }  // namespace satcheck

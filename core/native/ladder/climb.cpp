@@ -96,8 +96,8 @@ class Climber {
     } else if (!a.is_box || !b.is_box) {
       climb_.boxes = BoxOutcome::sheared;
     } else {
-      climb_.box_feature = separating_feature(a, b);
-      climb_.boxes = climb_.box_feature == Feature::none ? BoxOutcome::meet : BoxOutcome::apart;
+      climb_.box_axis = separating_axis(a, b);
+      climb_.boxes = climb_.box_axis.feature == Feature::none ? BoxOutcome::meet : BoxOutcome::apart;
     }
     return climb_.boxes == BoxOutcome::apart;
   }

@@ -45,7 +45,7 @@ struct Climb {
   Verdict verdict;
   double box_gap = 0;  // a proven lower bound of the gap of the world boxes
   BoxOutcome boxes = BoxOutcome::not_asked;
-  Feature box_feature = Feature::none;
+  SeparatingAxis box_axis;  // if the oriented boxes are apart
   bool both_convex = false;
   std::optional<PairResult> hulls;  // for two convex bodies with the depth; else the distance, or only the outcome
   std::optional<Relation> nesting;  // of two convex bodies that overlap and whose boxes nest

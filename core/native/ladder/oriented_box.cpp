@@ -1,10 +1,11 @@
-// The test is that of box_axes.hpp, on fewer words: S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree" (1996), 15 axes.
 // The products of edges are not scaled to unit length, because the rounding of a projection does not shrink with it.
 #include "ladder/oriented_box.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/rounding.hpp"
+#include "convex/box_axes.hpp"
 
 namespace satcheck {
 namespace {
@@ -28,36 +29,30 @@ bool comes_after(const OrientedBox& a, const OrientedBox& b) {
   return a.half == b.half ? coordinates_less(b.centre, a.centre) : coordinates_less(b.half, a.half);
 }
 
-Feature separating_axis(const OrientedBox& a, const OrientedBox& b) {
-  double r[3][3], abs_r[3][3], t[3];
+Mat3 to_world(const OrientedBox& box) {
+  const Vec3 x = box.axis[0], y = box.axis[1], z = box.axis[2];
+  return {{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}};
+}
+
+int first_of(int bits) { return std::countr_zero(static_cast<unsigned>(bits)); }
+
+SATCHECK_WIDE SeparatingAxis axis_between(const OrientedBox& a, const OrientedBox& b) {
   const Vec3 offset = b.centre - a.centre;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) abs_r[i][j] = std::fabs(r[i][j] = dot(a.axis[i], b.axis[j]));
-    t[i] = dot(a.axis[i], offset);
-  }
   const Noise noise = noise_of(a, b, offset);
-  const double ha[3] = {a.half.x, a.half.y, a.half.z}, hb[3] = {b.half.x, b.half.y, b.half.z};
+  const PlacedBoxes boxes = placed_boxes(to_world(a), a.half, to_world(b), b.half, offset, 0);
+  BoxAxes axes;
+  measure_faces(boxes, axes);
+  const int of_a = bits_of_three(axes.overlap[0] < all_lanes(-noise.face));
+  if (of_a != 0) return {Feature::face_a, first_of(of_a), -1, 6};
+  const int of_b = bits_of_three(axes.overlap[1] < all_lanes(-noise.face));
+  if (of_b != 0) return {Feature::face_b, -1, first_of(of_b), 6};
+  measure_edges(boxes, axes);
   for (int i = 0; i < 3; ++i) {
-    const double reach = ha[i] + (abs_r[i][0] * hb[0] + abs_r[i][1] * hb[1] + abs_r[i][2] * hb[2]);
-    if (std::fabs(t[i]) - reach > noise.face) return Feature::face_a;
+    const int apart = bits_of_three(axes.overlap[2 + i] < all_lanes(-noise.edge));
+    const int crossed = bits_of_three(axes.length_squared[i] > all_lanes(kParallelSquared));
+    if ((apart & crossed) != 0) return {Feature::edge_edge, i, first_of(apart & crossed), 15};
   }
-  for (int j = 0; j < 3; ++j) {
-    const double reach = hb[j] + (abs_r[0][j] * ha[0] + abs_r[1][j] * ha[1] + abs_r[2][j] * ha[2]);
-    const double along = t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j];
-    if (std::fabs(along) - reach > noise.face) return Feature::face_b;
-  }
-  for (int i = 0; i < 3; ++i) {
-    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-    for (int j = 0; j < 3; ++j) {
-      const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      if (1 - r[i][j] * r[i][j] < kParallelSquared) continue;
-      const double along = t[i2] * r[i1][j] - t[i1] * r[i2][j];
-      const double reach =
-          (ha[i1] * abs_r[i2][j] + ha[i2] * abs_r[i1][j]) + (hb[j1] * abs_r[i][j2] + hb[j2] * abs_r[i][j1]);
-      if (std::fabs(along) - reach > noise.edge) return Feature::edge_edge;
-    }
-  }
-  return Feature::none;
+  return {};
 }
 
 }  // namespace
@@ -96,10 +91,14 @@ OrientedBox carried_box(const Aabb& box, const std::array<double, 16>* matrix, d
   return carried;
 }
 
-Feature separating_feature(const OrientedBox& a, const OrientedBox& b) {
-  if (!comes_after(a, b)) return separating_axis(a, b);
-  const Feature axis = separating_axis(b, a);
-  return axis == Feature::face_a ? Feature::face_b : axis == Feature::face_b ? Feature::face_a : axis;
+SeparatingAxis separating_axis(const OrientedBox& a, const OrientedBox& b) {
+  if (!comes_after(a, b)) return axis_between(a, b);
+  SeparatingAxis axis = axis_between(b, a);
+  std::swap(axis.axis_a, axis.axis_b);
+  if (axis.feature == Feature::face_a || axis.feature == Feature::face_b) {
+    axis.feature = axis.feature == Feature::face_a ? Feature::face_b : Feature::face_a;
+  }
+  return axis;
 }
 
 }  // namespace satcheck

@@ -21,8 +21,14 @@ struct OrientedBox {
 // Contains every point within `pad` of the image of `box` under the affine 4x4 matrix, by rows; null: the identity.
 OrientedBox carried_box(const Aabb& box, const std::array<double, 16>* matrix, double pad);
 
-// The feature whose axis separates two boxes: face_a, face_b or edge_edge; none if no axis does. Swapping A and B
-// swaps face_a and face_b.
-Feature separating_feature(const OrientedBox& a, const OrientedBox& b);
+// The axis that separates two boxes: a face normal of A or B, or the product of an edge of each; feature none: no axis
+// does. axis_a, axis_b: axes of the boxes; -1: none. tested: how many of the 15 axes.
+struct SeparatingAxis {
+  Feature feature = Feature::none;
+  int axis_a = -1, axis_b = -1, tested = 15;
+};
+
+// Exchanging A and B exchanges their parts in the answer.
+SeparatingAxis separating_axis(const OrientedBox& a, const OrientedBox& b);
 
 }  // namespace satcheck

@@ -59,10 +59,22 @@ void far_and_small() {
   CHECK(compared(point(0, 0, 0), point(1, 0, 0), Dyadic(1) + Dyadic(tiny)) == -1);
 }
 
+// Hulls that meet, at a point, along a face, or with a common interior, have the distance 0.
+void hulls_that_meet() {
+  for (const Polytope& other : {point(1, 1, 1), point(0.5, 0.5, 0.5), convex_hull({{2, 0, 0}, {1, 0.5, 0.5}, {2, 2, 0}}), cube}) {
+    for (const auto& [one, two] : {std::pair{&cube, &other}, std::pair{&other, &cube}}) {
+      CHECK(compared(*one, *two, -1) == 1);
+      CHECK(compared(*one, *two, 0) == 0);
+      CHECK(compared(*one, *two, 0x1p-140) == -1);
+    }
+  }
+}
+
 }  // namespace
 
 UNIT(compare_distance) {
   vertices_edges_and_faces();
   edges();
   far_and_small();
+  hulls_that_meet();
 }

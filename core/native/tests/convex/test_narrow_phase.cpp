@@ -57,7 +57,7 @@ void test_box_contacts_touch() {
 // The portal leaves them open, and the face they share proves them without another stage in float64.
 void test_flush_hulls_in_place() {
   const auto block = [](double start, double end) {
-    return make_hull({{start, 0, 0}, {start, 1, 0}, {start, 0, 1}, {start, 1, 1}, {end, 0, 0}, {end, 1, 0}, {end, 0, 1}, {end, 1, 1}});
+    return make_hull({{start, 0, 0}, {start, 1, 0}, {start, 0, 1}, {start, 1, 1}, {end, 0, 0}, {end, 1, 0}, {end, 0, 1}});
   };
   const PairResult r = check_pair(block(0, 1), {}, block(1, 3), {}, Query::overlap);
   CHECK(r.outcome == Outcome::touching && r.method == Method::exact);

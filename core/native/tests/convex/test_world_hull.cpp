@@ -19,7 +19,7 @@ void test_in_place_far_from_zero() {
   const WorldHull hull(shape, {});
   CHECK(&hull.shape() == &shape);
   for (std::size_t i = 0; i < points.size(); ++i) CHECK(std::find(points.begin(), points.end(), hull.vertex(i)) != points.end());
-  CHECK(hull.polytope().vertices == convex_hull(points).vertices);
+  CHECK(hull.vertices() == convex_hull(points).vertices);
 }
 
 void test_moved() {
@@ -28,15 +28,16 @@ void test_moved() {
   const Pose pose = source.pose(5);
   std::vector<Vec3> points = shape.polytope.vertices;
   for (Vec3& p : points) p = pose * p;
-  const Polytope expected = convex_hull(points), hull = WorldHull(shape, pose).polytope();
-  CHECK(hull.vertices == expected.vertices && hull.face_vertex == expected.face_vertex);
+  const Polytope expected = convex_hull(points);
+  const WorldHull hull(shape, pose);
+  CHECK(hull.vertices() == expected.vertices && hull.shape().polytope.face_vertex == expected.face_vertex);
 }
 
 void test_cores() {
   Pose pose;
   pose.translation = {1, 2, 3};
-  CHECK(WorldHull(make_sphere(2), pose).polytope().vertices == std::vector<Vec3>({{1, 2, 3}}));
-  CHECK(WorldHull(make_capsule(2, 1), {}).polytope().vertices == std::vector<Vec3>({{0, 0, -1}, {0, 0, 1}}));
+  CHECK(world_points(make_sphere(2), pose) == std::vector<Vec3>({{1, 2, 3}}));
+  CHECK(world_points(make_capsule(2, 1), {}) == std::vector<Vec3>({{0, 0, -1}, {0, 0, 1}}));
   CHECK(!is_in_place(make_capsule(2, 1), {}));
 }
 

@@ -107,19 +107,32 @@ OrientedBox random_box(double spread, bool nearly_aligned) {
   return carried_box({-half, half}, &m, 0);
 }
 
+double gap_along(const OrientedBox& a, const OrientedBox& b, const SeparatingAxis& axis) {
+  const Vec3 n = axis.axis_b < 0   ? a.axis[axis.axis_a]
+                 : axis.axis_a < 0 ? b.axis[axis.axis_b]
+                                   : cross(a.axis[axis.axis_a], b.axis[axis.axis_b]);
+  double reach = 0;
+  for (const OrientedBox* box : {&a, &b}) {
+    for (int i = 0; i < 3; ++i) reach += box->half[i] * std::fabs(dot(n, box->axis[i]));
+  }
+  return std::fabs(dot(n, b.centre - a.centre)) - reach;
+}
+
 void separating_axes_separate() {
   int apart = 0, meet = 0, by_edges = 0;
   for (int round = 0; round < 4000; ++round) {
     const bool aligned = round % 4 == 0;
     const OrientedBox a = random_box(1.2, aligned), b = random_box(1.2, aligned);
-    const Feature feature = separating_feature(a, b), reverse = separating_feature(b, a);
-    const PairResult truth = check_pair(hull_of(a), {}, hull_of(b), {}, Query::distance);
+    const SeparatingAxis axis = separating_axis(a, b), other = separating_axis(b, a);
+    const Feature feature = axis.feature, reverse = other.feature;
+    const PairResult truth = check_pair(hull_of(a), {}, hull_of(b), {}, Query::distance, MethodChoice::gjk);
     if (feature != Feature::none) CHECK(truth.outcome == Outcome::separated);
     if (truth.distance > 1e-9) CHECK(feature != Feature::none);
     const bool mirrored = feature == Feature::face_a   ? reverse == Feature::face_b
                           : feature == Feature::face_b ? reverse == Feature::face_a
                                                        : reverse == feature;
-    CHECK(mirrored);
+    CHECK(mirrored && axis.axis_a == other.axis_b && axis.axis_b == other.axis_a);
+    if (feature != Feature::none) CHECK(gap_along(a, b, axis) > 0);
     ++(feature == Feature::none ? meet : apart);
     by_edges += feature == Feature::edge_edge;
   }
