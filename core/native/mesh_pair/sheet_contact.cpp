@@ -19,7 +19,7 @@
 #include "base/edge_table.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
-#include "mesh/cuts.hpp"
+#include "mesh/plane_cells.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh/winding.hpp"
 
@@ -32,47 +32,50 @@ struct Hinge {
   std::vector<Vec3> wings;
 };
 
-// The triangles of a closed surface that are sheets, by the pieces into which their own surface cuts them. A triangle
+// The triangles of a closed surface that are sheets, by the cells into which their own surface cuts them. A triangle
 // that is partly a sheet counts as a sheet, and unsure() is then true.
 class Sheets {
  public:
   Sheets(const Surface& surface, Budget* budget) : surface_(surface), budget_(budget) {}
 
   bool include(std::uint32_t t) {
-    const auto [entry, is_new] = known_.try_emplace(t, false);
-    if (is_new) entry->second = is_sheet(t);
-    return entry->second;
+    if (!known_.contains(t)) look_at(t);
+    const auto [any, all] = known_.at(t);
+    unsure_ = unsure_ || any != all;
+    return any;
   }
 
   bool unsure() const { return unsure_; }
 
  private:
-  bool is_sheet(std::uint32_t t) {
+  struct Sheet {
+    bool any = false, all = false;
+  };
+
+  void look_at(std::uint32_t t) {
     const Corners c = corners(surface_.mesh, t);
-    if (collinear(c[0], c[1], c[2])) return false;
-    const auto partners = irregular_partners(surface_, t, budget_);
-    if (partners.empty()) return false;  // it has material on one side
-    bool any = false, all = true;
-    const auto cuts = find_cuts(surface_.mesh, t, surface_.mesh, partners, Touching::left_out, budget_);
-    visit_pieces(c, cuts, Touching::left_out,
-                 [&](const Piece& piece) {
-                   bool sheet = false;
-                   const bool known = sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
-                     const auto sides = beside(surface_, p, c, budget_);
-                     sheet = sides && sides->is_sheet();
-                     return sides.has_value();
-                   });
-                   any = any || sheet || !known;
-                   all = all && sheet;
-                   return true;
-                 }, budget_);
-    unsure_ = unsure_ || any != all;
-    return any;
+    known_[t] = {};
+    // A triangle that meets no other has material on one side.
+    if (collinear(c[0], c[1], c[2]) || !has_irregular_partners(surface_, t, budget_)) return;
+    const PlaneCells cells({&surface_}, {0, t}, SinglePoints::left_out, budget_);
+    const auto sheet_of = [&](const std::vector<std::uint32_t>& outlines) {
+      Sheet sheet{false, true};
+      for (const std::uint32_t outline : outlines) {
+        const auto sides = cells.beside(outline, 0);
+        sheet.any = sheet.any || !sides || sides->is_sheet();
+        sheet.all = sheet.all && sides && sides->is_sheet();
+      }
+      return sheet;
+    };
+    const Sheet patch = sheet_of(cells.outlines());
+    for (const PatchTriangle& member : cells.members()) {
+      known_[member.triangle] = patch.any == patch.all ? patch : sheet_of(cells.outlines_in(member));
+    }
   }
 
   const Surface& surface_;
   Budget* budget_;
-  std::unordered_map<std::uint32_t, bool> known_;
+  std::unordered_map<std::uint32_t, Sheet> known_;
   bool unsure_ = false;
 };
 
@@ -279,7 +282,7 @@ void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<C
   for (const SheetPair& pair : pairs) {
     if (crosses_at_edge(pair, hinges_a, hinges_b)) {
       if (of_a.unsure() || of_b.unsure()) return samples.fail();
-      samples.note_sheets_cross({pair.a, pair.b, contact_point(pair.of_a, pair.of_b)});
+      samples.note_sheets_cross([&] { return Evidence{pair.a, pair.b, contact_point(pair.of_a, pair.of_b)}; });
       return;
     }
     if (coplanar_overlap(pair.of_a, pair.of_b) != CoplanarOverlap::none) flat.push_back(unit_normal(pair.of_a));
