@@ -50,6 +50,7 @@ RungWords words_of_triangles(const MeshRelation& r, std::int64_t cost) {
   if (r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle) {
     detail += ", triangles " + std::to_string(r.triangle_a) + " and " + std::to_string(r.triangle_b) + " meet";
   }
+  if (!r.decided) return {"triangles", "undecided", "too many steps", cost};
   if (!r.proven) detail += ", sampled in a degenerate contact";
   return {"triangles", name_of(r.relation), std::move(detail), cost};
 }

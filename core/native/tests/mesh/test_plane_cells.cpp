@@ -42,7 +42,7 @@ std::size_t check_patch(const Surface& a, const Surface& b, PatchTriangle first)
       CHECK(sides && truth);
       if (!sides || !truth) continue;
       CHECK(sides->front == truth->front && sides->back == truth->back && sides->on_surface == truth->on_surface);
-      CHECK((cells.triangles_at(p)[s] != PlaneCells::kNone) == truth->on_surface);
+      CHECK((cells.triangles_at(p)[s] != PlaneGraph::kNone) == truth->on_surface);
     }
   }
   for (const PatchTriangle& member : cells.members()) {
