@@ -18,48 +18,53 @@ constexpr int kAttempts = 8;
 PlaneCells::PlaneCells(std::vector<const Surface*> surfaces, PatchTriangle first, SinglePoints points, Budget* budget)
     : surfaces_(std::move(surfaces)), points_(points), budget_(budget), first_corners_(corners_of(first)),
       plane_(first_corners_[0], first_corners_[1], first_corners_[2]), graph_(first_corners_, budget), members_{first} {
-  seen_[first] = true;
+  seen_[first] = Seen::done;
   gather();
   graph_.build();
   find_windings();
 }
 
-// The triangles of the patch, and the segments in which triangles that touch them meet the plane.
+// The triangles of the patch, and the segments in which triangles near them meet the plane.
 void PlaneCells::gather() {
   for (std::size_t k = 0; k < members_.size(); ++k) {
     const PatchTriangle member = members_[k];
     const Corners c = corners_of(member);
-    const TrianglePlane plane(c[0], c[1], c[2]);
     add_sides(member, true);
     for (int s = 0; s < static_cast<int>(surfaces_.size()); ++s) {
       const Surface& surface = *surfaces_[s];
       visit_box(surface.bvh, surface.mesh, triangle_box(surfaces_[member.surface]->mesh, member.triangle), [&](std::uint32_t t) {
-        look_at({s, t}, plane);
+        look_at({s, t}, c);
         return true;
       }, budget_);
     }
   }
 }
 
-void PlaneCells::look_at(PatchTriangle other, const TrianglePlane& member) {
+void PlaneCells::look_at(PatchTriangle other, const Corners& member) {
   spend(budget_, kTriangleWork);
-  const auto seen = seen_.find(other);
-  if (seen != seen_.end() && seen->second) return;
+  auto seen = seen_.find(other);
+  if (seen != seen_.end() && seen->second == Seen::done) return;
   const Corners c = corners_of(other);
-  if (classify(member, c, budget_) == TriangleContact::disjoint || collinear(c[0], c[1], c[2])) return;
-  std::array<int, 3> side;
-  for (int i = 0; i < 3; ++i) side[i] = plane_.side(c[i], budget_);
-  const bool coplanar = side == std::array<int, 3>{};
-  if (coplanar && coplanar_overlap({member.a, member.b, member.c}, c) != CoplanarOverlap::none) {
-    members_.push_back(other);
-  } else if (coplanar) {
-    if (points_ == SinglePoints::all && seen == seen_.end()) add_sides(other, false);
-    seen_[other] = false;  // it may share area with another member
-    return;
-  } else {
-    add_trace(other.surface, c, side);
+  if (seen == seen_.end()) {
+    std::array<int, 3> side;
+    for (int i = 0; i < 3; ++i) side[i] = plane_.side(c[i], budget_);
+    const auto [low, high] = std::minmax_element(side.begin(), side.end());
+    const bool straddles = *low < 0 && *high > 0, is_flat = *low == 0 && *high == 0;
+    if (straddles && classify(member, c, budget_) == TriangleContact::disjoint) return;  // it may meet another member
+    seen = seen_.emplace(other, is_flat ? Seen::coplanar : Seen::done).first;
+    if (*low > 0 || *high < 0) return;
+    if (collinear(c[0], c[1], c[2])) {
+      seen->second = Seen::done;
+    } else if (!is_flat) {
+      add_trace(other.surface, c, side);
+    } else if (points_ == SinglePoints::all) {
+      add_sides(other, false);
+    }
   }
-  seen_[other] = true;
+  if (seen->second == Seen::coplanar && share_area(member, c, graph_.axis())) {
+    seen->second = Seen::done;
+    members_.push_back(other);
+  }
 }
 
 void PlaneCells::add_sides(PatchTriangle coplanar, bool is_member) {

@@ -51,6 +51,8 @@ class PlaneCells {
   std::vector<std::uint32_t> outlines_at(const LazyPoint& x) const;
 
  private:
+  // coplanar: it may share area with another member.
+  enum class Seen : std::uint8_t { coplanar, done };
   struct Sides {
     bool known = false, decided = true;
     PlaneChanges at{};  // beside the cell
@@ -59,7 +61,7 @@ class PlaneCells {
 
   Corners corners_of(PatchTriangle t) const { return corners(surfaces_[t.surface]->mesh, t.triangle); }
   void gather();
-  void look_at(PatchTriangle other, const TrianglePlane& member);
+  void look_at(PatchTriangle other, const Corners& member);
   void add_sides(PatchTriangle coplanar, bool is_member);
   void add_trace(int surface, const Corners& c, const std::array<int, 3>& side);
   void find_windings();
@@ -74,9 +76,9 @@ class PlaneCells {
   TrianglePlane plane_;
   PlaneGraph graph_;
   std::vector<PatchTriangle> members_;
-  std::vector<std::uint32_t> corners_;   // nodes: three of each member
-  std::map<PatchTriangle, bool> seen_;  // whether nothing more is to be learnt of it
-  std::vector<Sides> sides_;             // of each outline
+  std::vector<std::uint32_t> corners_;  // nodes: three of each member
+  std::map<PatchTriangle, Seen> seen_;
+  std::vector<Sides> sides_;  // of each outline
   std::vector<std::uint32_t> in_patch_;
   bool consistent_ = true;
 };

@@ -243,7 +243,10 @@ void PlaneGraph::trace() {
 // Counter-clockwise around the node that all of them leave.
 void PlaneGraph::sort_around(std::vector<std::uint32_t>& half_edges) const {
   const std::uint32_t from = start(half_edges[0]), first = half_edges[0];
-  const auto turn = [&](std::uint32_t g, std::uint32_t h) { return side(from, far_end(g), nodes_[far_end(h)]); };
+  const auto turn = [&](std::uint32_t g, std::uint32_t h) {
+    if (edges_[g / 2].segment == edges_[h / 2].segment) return 0;  // float64 could not tell
+    return side(from, far_end(g), nodes_[far_end(h)]);
+  };
   const auto quarter = [&](std::uint32_t h) {
     const int ahead = h == first ? 0 : turn(first, h);
     return h == first ? 0 : ahead > 0 ? 1 : ahead == 0 ? 2 : 3;
