@@ -18,7 +18,7 @@ constexpr int kAttempts = 8;
 PlaneCells::PlaneCells(std::vector<const Surface*> surfaces, PatchTriangle first, SinglePoints points, Budget* budget)
     : surfaces_(std::move(surfaces)), points_(points), budget_(budget), first_corners_(corners_of(first)),
       plane_(first_corners_[0], first_corners_[1], first_corners_[2]), graph_(first_corners_, budget), members_{first} {
-  seen_[first] = Seen::done;
+  seen_[key(first)] = Seen::done;
   gather();
   graph_.build();
   find_windings();
@@ -42,16 +42,19 @@ void PlaneCells::gather() {
 
 void PlaneCells::look_at(PatchTriangle other, const Corners& member) {
   spend(budget_, kTriangleWork);
-  auto seen = seen_.find(other);
+  auto seen = seen_.find(key(other));
   if (seen != seen_.end() && seen->second == Seen::done) return;
   const Corners c = corners_of(other);
   if (seen == seen_.end()) {
     std::array<int, 3> side;
-    for (int i = 0; i < 3; ++i) side[i] = plane_.side(c[i], budget_);
+    for (int i = 0; i < 3; ++i) {
+      const bool is_corner = std::find(first_corners_.begin(), first_corners_.end(), c[i]) != first_corners_.end();
+      side[i] = is_corner ? 0 : plane_.side(c[i], budget_);
+    }
     const auto [low, high] = std::minmax_element(side.begin(), side.end());
     const bool straddles = *low < 0 && *high > 0, is_flat = *low == 0 && *high == 0;
     if (straddles && classify(member, c, budget_) == TriangleContact::disjoint) return;  // it may meet another member
-    seen = seen_.emplace(other, is_flat ? Seen::coplanar : Seen::done).first;
+    seen = seen_.emplace(key(other), is_flat ? Seen::coplanar : Seen::done).first;
     if (*low > 0 || *high < 0) return;
     if (collinear(c[0], c[1], c[2])) {
       seen->second = Seen::done;

@@ -7,8 +7,8 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -60,6 +60,7 @@ class PlaneCells {
   };
 
   Corners corners_of(PatchTriangle t) const { return corners(surfaces_[t.surface]->mesh, t.triangle); }
+  static std::uint64_t key(PatchTriangle t) { return std::uint64_t(t.surface) << 32 | t.triangle; }
   void gather();
   void look_at(PatchTriangle other, const Corners& member);
   void add_sides(PatchTriangle coplanar, bool is_member);
@@ -77,7 +78,7 @@ class PlaneCells {
   PlaneGraph graph_;
   std::vector<PatchTriangle> members_;
   std::vector<std::uint32_t> corners_;  // nodes: three of each member
-  std::map<PatchTriangle, Seen> seen_;
+  std::unordered_map<std::uint64_t, Seen> seen_;
   std::vector<Sides> sides_;  // of each outline
   std::vector<std::uint32_t> in_patch_;
   bool consistent_ = true;

@@ -1,6 +1,8 @@
 // Facts about a pair of surfaces from exact sample points.
 #pragma once
 
+#include <unordered_map>
+
 #include "exact/triangle_pair.hpp"
 #include "mesh/plane_cells.hpp"
 #include "mesh/surface.hpp"
@@ -106,9 +108,16 @@ class Samples {
   // the patch.
   template <class Partner>
   void note_cells(const Side& side, const PlaneCells& cells, Partner partner) {
+    bool sheets[2] = {true, true}, solids[2] = {true, true};  // whether all cells of a surface are of this kind
     for (const std::uint32_t outline : cells.outlines()) {
       if (settled()) return;
       const auto mine = cells.beside(outline, 0), theirs = cells.beside(outline, 1);
+      for (int s = 0; s < 2; ++s) {
+        const auto& beside = s == 0 ? mine : theirs;
+        if (beside && !beside->on_surface) continue;
+        sheets[s] = sheets[s] && beside && beside->is_sheet();
+        solids[s] = solids[s] && beside && !beside->is_sheet();
+      }
       if (!mine || !theirs) {
         fail();
         continue;
@@ -121,7 +130,14 @@ class Samples {
         return side.evidence(t, u, p.rounded);
       });
     }
+    for (const PatchTriangle& member : cells.members()) {
+      const int s = member.surface;
+      if (sheets[s] || solids[s]) is_sheet_[(s == 0) == side.self_is_a ? 0 : 1][member.triangle] = sheets[s];
+    }
   }
+
+  // Whether triangles of A (0) and B (1) are sheets, of those whose patches have shown it.
+  const std::unordered_map<std::uint32_t, bool>& is_sheet(int body) const { return is_sheet_[body]; }
 
   void fail() { facts_.proven = false; }
 
@@ -134,6 +150,7 @@ class Samples {
   }
 
   PairFacts facts_;
+  std::unordered_map<std::uint32_t, bool> is_sheet_[2];
 };
 
 // Tries points of the triangle until note(point) returns true. A point gives no answer if it lies on a triangle in

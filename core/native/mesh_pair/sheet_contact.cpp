@@ -40,7 +40,10 @@ struct Hinge {
 // that is partly a sheet counts as a sheet, and unsure() is then true.
 class Sheets {
  public:
-  Sheets(const Surface& surface, Budget* budget) : surface_(surface), budget_(budget) {}
+  Sheets(const Surface& surface, const std::unordered_map<std::uint32_t, bool>& known, Budget* budget)
+      : surface_(surface), budget_(budget) {
+    for (const auto& [t, is_sheet] : known) known_[t] = {is_sheet, is_sheet};
+  }
 
   bool include(std::uint32_t t) {
     if (!known_.contains(t)) look_at(t);
@@ -323,7 +326,7 @@ std::vector<Vec3> ways_out(const std::vector<Vec3>& normals) {
 
 void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Samples& samples,
                          Budget* budget) {
-  Sheets of_a(a, budget), of_b(b, budget);
+  Sheets of_a(a, samples.is_sheet(0), budget), of_b(b, samples.is_sheet(1), budget);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs, mirrored;
   for (const ContactPair& c : contacts) {
     if (!of_a.include(c.a) || !of_b.include(c.b)) continue;
