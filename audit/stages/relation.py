@@ -39,6 +39,9 @@ LAST: dict[Accuracy, Rung] = {
     "parts": "hull",
     "exact": "triangles",
 }
+TOO_MANY_STEPS = (
+    "the triangles meet in so many places that deciding takes more steps than a pair may"
+)
 # Effects that are computed after the ladder for every verdict.
 _EXTRAS: frozenset[Effect] = frozenset(
     ("volume", "contacts", "components", "cross-check", "certificate", "sweep")
@@ -91,6 +94,7 @@ def _by_rungs(draft: Draft, climb: core.Climb) -> None:
 def _take(draft: Draft, climb: core.Climb) -> None:
     """Take the answer of the core."""
     weak = None if climb.hole is None else open_hole(draft.pair, climb.hole)
+    weak = weak if climb.decided else TOO_MANY_STEPS
     draft.found(climb.relation, climb.proven, climb.gap_lower, climb.signed_distance, weak=weak)
     draft.crossing, draft.point, draft.climb = climb.crossing, climb.point, climb
     draft.reason_code = None if climb.hole is None else "open-hole"

@@ -34,7 +34,7 @@ def rungs_of(climb: core.Climb) -> list[Stage]:
     if climb.nesting is not None:
         rungs.append((3, "containment", climb.nesting, "one world box holds the other"))
     if triangles is not None:
-        rungs.append((4, "triangles", triangles.relation, ", ".join(_tests(climb))))
+        rungs.append((4, "triangles", *_triangles(triangles)))
     cost = climb.nanoseconds
     return [Stage(rung, result, cost[k] / 1000.0, detail) for k, rung, result, detail in rungs]
 
@@ -80,10 +80,13 @@ def _method(hulls: core.PairResult) -> str:
     return f"{axes}: exact signs" if hulls.method == "exact" else axes
 
 
-def _tests(climb: core.Climb) -> Iterator[str]:
-    triangles = climb.triangles
-    if triangles is None:
-        return
+def _triangles(triangles: core.MeshRelation) -> tuple[str, str]:
+    if not triangles.decided:
+        return "undecided", "too many steps"
+    return triangles.relation, ", ".join(_tests(triangles))
+
+
+def _tests(triangles: core.MeshRelation) -> Iterator[str]:
     if triangles.edge_tests is None:
         yield f"{triangles.box_tests} box tests, {triangles.triangle_tests} triangle tests"
     else:

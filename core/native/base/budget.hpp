@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace satcheck {
@@ -19,12 +21,27 @@ struct SearchState {
 // May be empty. An exception that it throws ends the search.
 using Poll = std::function<void(const SearchState&)>;
 
+// Ends a query without an interval in the middle.
+struct BudgetSpent : std::runtime_error {
+  BudgetSpent() : std::runtime_error("the query takes more steps than it may") {}
+};
+
 class Budget {
  public:
   Budget() = default;  // without an end
   explicit Budget(std::uint64_t end, Poll poll = {}) : end_(end), poll_(std::move(poll)) {}
 
-  void spend(std::uint64_t steps) { spent_ += steps; }
+  // For a query that has no interval and so no good place to stop: spend() polls, and throws BudgetSpent at the end.
+  static Budget that_stops(std::uint64_t end, Poll poll) {
+    Budget budget(end, std::move(poll));
+    budget.stop_at_ = std::min(end, kPollWork);
+    return budget;
+  }
+
+  void spend(std::uint64_t steps) {
+    spent_ += steps;
+    if (spent_ >= stop_at_) stop();
+  }
   std::uint64_t spent() const { return spent_; }
   std::uint64_t left() const { return end_ - std::min(end_, spent_); }
   bool is_spent() const { return spent_ >= end_; }
@@ -35,13 +52,25 @@ class Budget {
   bool is_due() const { return poll_ && spent_ >= next_; }
   void tell(double lower, double upper) {
     next_ = spent_ + kPollWork;
-    poll_({lower, upper, spent_});
+    told_ = {lower, upper, spent_};
+    poll_(told_);
+  }
+  // The same interval as before, during a part of the search that has its own budget.
+  void tell_again() const {
+    if (poll_) poll_(told_);
   }
 
  private:
   static constexpr std::uint64_t kPollWork = 50'000'000;
 
-  std::uint64_t spent_ = 0, end_ = UINT64_MAX, next_ = kPollWork;
+  void stop() {
+    if (is_spent()) throw BudgetSpent();
+    if (poll_) tell(0, std::numeric_limits<double>::infinity());
+    stop_at_ = std::min(end_, spent_ + kPollWork);
+  }
+
+  std::uint64_t spent_ = 0, end_ = UINT64_MAX, next_ = kPollWork, stop_at_ = UINT64_MAX;
+  SearchState told_{0, std::numeric_limits<double>::infinity(), 0};
   Poll poll_;
 };
 

@@ -8,12 +8,15 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <future>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 
+#include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
 #include "ladder/climb.hpp"
 #include "ladder/touch_proof.hpp"
@@ -112,6 +115,8 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing_of(const Climb& 
   return std::pair(a, b);
 }
 
+bool is_decided(const Climb& climb) { return !climb.triangles || climb.triangles->decided; }
+
 double deepest(const Climb& climb) {
   return std::fmax(climb.least_depth.value_or(0), climb.way_within ? climb.way_within->deepest : 0);
 }
@@ -119,7 +124,8 @@ double deepest(const Climb& climb) {
 void bind_result(nb::module_& m) {
   nb::class_<Climb>(m, "Climb", R"(The verdict of the ladder on a pair, and the results of its rungs; None for rungs that the climb did not reach.
 
-relation      of the bodies, without a touch band; "indeterminate" if `hole` leaves it open.
+relation      of the bodies, without a touch band; "indeterminate" if `hole` leaves it open, or if it is not `decided`.
+decided       False: deciding takes more steps than a pair may.
 settled       a rung decided the pair. Else a higher rung may decide more: the bodies are apart by gap_lower, but not
               by more than gap_limit, or they may overlap.
 proven        the relation is proven. gap_lower: a proven lower bound of the distance; 0.0: none is known.
@@ -142,7 +148,8 @@ triangles     the relation of the meshes.
 nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, triangles; band_nanoseconds: of the touch
               band or the gap.)")
       .def_prop_ro("relation",
-                   [](const Climb& c) { return hole_in_the_way(c) ? "indeterminate" : name_of(c.verdict.relation); })
+                   [](const Climb& c) { return hole_in_the_way(c) || !is_decided(c) ? "indeterminate" : name_of(c.verdict.relation); })
+      .def_prop_ro("decided", &is_decided)
       .def_prop_ro("settled", [](const Climb& c) { return c.verdict.settled; })
       .def_prop_ro("proven", [](const Climb& c) { return c.verdict.proven; })
       .def_prop_ro("gap_lower", [](const Climb& c) { return c.verdict.gap; })
@@ -181,8 +188,12 @@ class Climbing {
       pairs_.push_back(nb::tuple(pair));
       requests.push_back(request_from(nb::cast<PairTuple>(pairs_.back()), choice, alone));
     }
-    const auto climb = [requests = std::move(requests), rung = rung_from(last), threads] {
-      return climb_all(requests, rung, threads);
+    // Deferred climbs run in the thread that takes the results, where signals arrive.
+    const auto poll = [this, deferred = threads == 1](const SearchState&) {
+      if (stopped_ || (deferred && signalled())) throw ClimbsStopped();
+    };
+    const auto climb = [requests = std::move(requests), rung = rung_from(last), threads, poll] {
+      return climb_all(requests, rung, threads, poll);
     };
     // Deferred too where the system grants no thread.
     const auto when = threads == 1 ? std::launch::deferred : std::launch::async | std::launch::deferred;
@@ -194,22 +205,30 @@ class Climbing {
   // Nobody takes the results: the threads still have to end, and Python goes on meanwhile.
   ~Climbing() {
     const nb::gil_scoped_release release;
+    stopped_ = true;
     results_ = {};
   }
 
   nb::list results() {
     if (!results_.valid()) throw std::invalid_argument("the results have been taken");
     std::vector<std::optional<Climb>> results;
-    {
+    try {
       const nb::gil_scoped_release release;
+      while (!stopped_ && results_.wait_for(kBetweenSignals) == std::future_status::timeout) stopped_ = signalled();
       results = results_.get();
+    } catch (const ClimbsStopped&) {
+      stopped_ = true;
     }
+    if (stopped_) throw nb::python_error();
     nb::list climbs;
     for (std::optional<Climb>& climb : results) climbs.append(climb ? nb::cast(std::move(*climb)) : nb::none());
     return climbs;
   }
 
  private:
+  static constexpr std::chrono::milliseconds kBetweenSignals{50};
+
+  std::atomic<bool> stopped_ = false;
   std::vector<nb::tuple> pairs_;  // keeps the bodies, whatever the caller does with the list
   std::future<std::vector<std::optional<Climb>>> results_;
 };
@@ -236,7 +255,7 @@ failed, and climb() raises for this pair.)");
           const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method));
           const Rung from = rung_from(first), to = rung_from(last);
           const nb::gil_scoped_release release;
-          return climb(request, from, to);
+          return climb(request, from, to, [](const SearchState&) { raise_interrupts(); });
         },
         "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto",
         "One pair of Climbing, from the rung `first` on.");

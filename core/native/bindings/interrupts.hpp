@@ -10,10 +10,16 @@
 
 namespace satcheck {
 
-// Without this, Ctrl-C would take effect only after a long search.
+// Whether a signal ends the work; its exception is then set. Without this, Ctrl-C would take effect only after a long
+// search.
+inline bool signalled() {
+  const nanobind::gil_scoped_acquire held;
+  return PyErr_CheckSignals() != 0;
+}
+
 inline void raise_interrupts() {
   const nanobind::gil_scoped_acquire held;
-  if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
+  if (signalled()) throw nanobind::python_error();
 }
 
 // Called with the interval so far, and with the share of the work that is spent; may be empty.

@@ -8,6 +8,7 @@
 
 #include <stdexcept>
 
+#include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
 #include "exact/translation.hpp"
 #include "mesh/closing.hpp"
@@ -98,9 +99,11 @@ largest hole of the body first; count: of its holes.)")
       .def_prop_ro("centre", [](const OpenHole& hole) { return to_tuple(hole.centre); })
       .def_ro("diameter", &OpenHole::diameter);
   nb::class_<MeshRelation>(m, "MeshRelation", R"(proven: False if samples decided a degenerate contact, or if `hole` leaves the relation open; the relation is then
-that of the surfaces without fills.)")
-      .def_prop_ro("relation", [](const MeshRelation& r) { return name_of(r.relation); })
+that of the surfaces without fills. decided: False if that takes more steps than a pair may; the relation is then
+"indeterminate".)")
+      .def_prop_ro("relation", [](const MeshRelation& r) { return r.decided ? name_of(r.relation) : "indeterminate"; })
       .def_ro("proven", &MeshRelation::proven)
+      .def_ro("decided", &MeshRelation::decided)
       .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal)
       .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })
@@ -111,7 +114,9 @@ that of the surfaces without fills.)")
       .def_ro("box_tests", &MeshRelation::box_tests)
       .def_ro("triangle_tests", &MeshRelation::triangle_tests)
       .def_ro("edge_tests", &MeshRelation::edge_tests, "Of the outlines of prisms; None for other bodies.");
-  m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil(),
+  m.def("mesh_relation",
+        [](const Surface& a, const Surface& b) { return mesh_relation(a, b, [](const SearchState&) { raise_interrupts(); }); },
+        "a"_a, "b"_a, ReleaseGil(),
         R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
 "touching", "penetrating" (interiors overlap, or a surface crosses a sheet), "contains" (b strictly inside a),
 "inside" (a strictly inside b), "coincident" (the same body, however triangulated). A body is the points of winding

@@ -159,23 +159,35 @@ LazyPoint lazy_centroid(const std::array<Vec3, 3>& triangle) {
           [&triangle] { return weighted_point(triangle[0], triangle[1], triangle[2], 1, 1, 1); }};
 }
 
-LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, const Vec3& p, const Vec3& q) {
-  const auto make = [&] { return plane_meeting_point(plane[0], plane[1], plane[2], p, q); };
-  const Determinant at_p = rounded_determinant(plane[0], plane[1], plane[2], {p, {}});
-  const Determinant at_q = rounded_determinant(plane[0], plane[1], plane[2], {q, {}});
+namespace {
+
+// The point of the segment from p to q where a linear function with these values at the ends, of different signs, is 0.
+LazyPoint lazy_zero(Known p, Known q, Determinant at_p, Determinant at_q, std::function<ExactPoint()> make) {
   const double sum = std::fabs(at_p.value) + std::fabs(at_q.value), error = at_p.error + at_q.error;
   if (!(sum > 4 * error)) {
     const ExactPoint exact = make();
-    return {exact.rounded, exact.error, make};
+    return {exact.rounded, exact.error, std::move(make)};
   }
   // The place t = P / (P + Q) on the way from p to q, with heights P and Q. If their error is at most a quarter of the
   // sum, |dt| <= 16/9 error / sum, plus 3 roundings.
   const double t = std::fabs(at_p.value) / sum, off = kSlack * (2 * error / sum + 4 * kRoundoff);
   const auto at = [&](double from, double to) { return from + (to - from) * t; };
-  const auto error_at = [&](double from, double to) {
-    return kSlack * std::fabs(to - from) * off + point_error(larger(std::fabs(from), std::fabs(to)));
+  const auto error_at = [&](int k) {
+    const double from = p.at[k], to = q.at[k], ends = larger(p.error[k], q.error[k]);
+    return kSlack * ((std::fabs(to - from) + 2 * ends) * off + ends) + point_error(larger(std::fabs(from), std::fabs(to)));
   };
-  return {{at(p.x, q.x), at(p.y, q.y), at(p.z, q.z)}, {error_at(p.x, q.x), error_at(p.y, q.y), error_at(p.z, q.z)}, make};
+  return {{at(p.at.x, q.at.x), at(p.at.y, q.at.y), at(p.at.z, q.at.z)}, {error_at(0), error_at(1), error_at(2)}, std::move(make)};
+}
+
+}  // namespace
+
+LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, const Vec3& p, const Vec3& q) {
+  return lazy_meeting_point(plane, p, q, [&] { return plane_meeting_point(plane[0], plane[1], plane[2], p, q); });
+}
+
+LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, Vec3 p, Vec3 q, std::function<ExactPoint()> make) {
+  return lazy_zero({p, {}}, {q, {}}, rounded_determinant(plane[0], plane[1], plane[2], {p, {}}),
+                   rounded_determinant(plane[0], plane[1], plane[2], {q, {}}), std::move(make));
 }
 
 LazyPoint lazy_between(const LazyPoint& p, const LazyPoint& q, double wp, double wq) {
@@ -198,7 +210,8 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d, Budget* budget) {
 
 namespace {
 
-int filtered_orientation_2d(Known a, Known b, Known c, int drop_axis) {
+// (b - a) x (c - a) along the axis, in float64.
+Determinant rounded_area(Known a, Known b, Known c, int drop_axis) {
   const auto [i, j] = plane_axes(drop_axis);
   const Vec3 u = b.at - a.at, v = c.at - a.at;
   const Vec3 eu = a.error + b.error, ev = a.error + c.error;
@@ -206,13 +219,39 @@ int filtered_orientation_2d(Known a, Known b, Known c, int drop_axis) {
   const auto product_error = [](double x, double ex, double y, double ey) {
     return std::fabs(x) * ey + std::fabs(y) * ex + ex * ey;
   };
-  const double bound =
-      kSlack * (kDeterminantBound * (std::fabs(left) + std::fabs(right)) +
-                product_error(u[i], eu[i], v[j], ev[j]) + product_error(u[j], eu[j], v[i], ev[i])) + kUnderflow;
-  return left - right > bound ? 1 : left - right < -bound ? -1 : kOpen;
+  return {left - right, kSlack * (kDeterminantBound * (std::fabs(left) + std::fabs(right)) +
+                                  product_error(u[i], eu[i], v[j], ev[j]) + product_error(u[j], eu[j], v[i], ev[i])) + kUnderflow};
 }
 
+int filtered_orientation_2d(Known a, Known b, Known c, int drop_axis) {
+  const auto [area, bound] = rounded_area(a, b, c, drop_axis);
+  return area > bound ? 1 : area < -bound ? -1 : kOpen;
+}
+
+Known known(const LazyPoint& p) { return {p.rounded, p.error}; }
+
 }  // namespace
+
+ExactPoint crossing_point(const ExactPoint& p, const ExactPoint& q, const ExactPoint& u, const ExactPoint& v, int drop_axis) {
+  // The values are times the w of p and of q, and between() divides the weights by it.
+  const Dyadic near = area_value(u, v, p, drop_axis) * q.w, far = area_value(u, v, q, drop_axis) * p.w;
+  return near.sign() > 0 ? between(p, q, -far, near) : between(p, q, far, -near);
+}
+
+LazyPoint lazy_crossing(const LazyPoint& p, const LazyPoint& q, const LazyPoint& u, const LazyPoint& v, int drop_axis,
+                        std::function<ExactPoint()> make) {
+  return lazy_zero(known(p), known(q), rounded_area(known(u), known(v), known(p), drop_axis),
+                   rounded_area(known(u), known(v), known(q), drop_axis), std::move(make));
+}
+
+int compare_along(const LazyPoint& p, const LazyPoint& q, int axis) {
+  const double gap = p.rounded[axis] - q.rounded[axis], error = kSlack * (p.error[axis] + q.error[axis]);
+  if (gap > error) return 1;
+  if (gap < -error) return -1;
+  if (error == 0) return 0;
+  const ExactPoint &a = p.exact(), &b = q.exact();
+  return (coordinate(a, axis) * b.w - coordinate(b, axis) * a.w).sign();
+}
 
 int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis) {
   const int sign = filtered_orientation_2d({a, {}}, {b, {}}, {p.rounded, p.error}, drop_axis);
@@ -230,6 +269,14 @@ int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint
   }
   const int sign = filtered_orientation_2d({a.rounded, a.error}, {b.rounded, b.error}, {c.rounded, c.error}, drop_axis);
   return sign != kOpen ? sign : area_value(a, b, c, drop_axis).sign();
+}
+
+int orientation_2d_at(const LazyPoint& a, const LazyPoint& b, const LazyPoint& c, int drop_axis) {
+  if (a.error == Vec3{} && b.error == Vec3{} && c.error == Vec3{}) {
+    return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis);
+  }
+  const int sign = filtered_orientation_2d(known(a), known(b), known(c), drop_axis);
+  return sign != kOpen ? sign : area_value(a.exact(), b.exact(), c.exact(), drop_axis).sign();
 }
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <utility>
 
 #include "base/budget.hpp"
@@ -40,6 +40,9 @@ Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d);
 // the plane.
 ExactPoint plane_meeting_point(Vec3 a, Vec3 b, Vec3 c, Vec3 p, Vec3 q);
 
+// Where the segment p q meets the line through u and v in their common plane. p and q are on different sides of it.
+ExactPoint crossing_point(const ExactPoint& p, const ExactPoint& q, const ExactPoint& u, const ExactPoint& v, int drop_axis);
+
 // A point in float64 with an `error` for each coordinate. It is computed exactly only for signs that float64 does not
 // decide.
 class LazyPoint {
@@ -48,7 +51,7 @@ class LazyPoint {
       : rounded(rounded), error(error), make_(std::move(make)) {}
 
   const ExactPoint& exact() const {
-    if (!exact_) exact_ = make_();
+    if (!exact_) exact_ = std::make_shared<const ExactPoint>(make_());
     return *exact_;
   }
 
@@ -56,13 +59,17 @@ class LazyPoint {
 
  private:
   std::function<ExactPoint()> make_;
-  mutable std::optional<ExactPoint> exact_;
+  mutable std::shared_ptr<const ExactPoint> exact_;  // long: most points never need it
 };
 
 // Lazy versions of the functions above. The arguments must outlive the point.
 LazyPoint lazy_centroid(const std::array<Vec3, 3>& triangle);
 LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, const Vec3& p, const Vec3& q);
 LazyPoint lazy_between(const LazyPoint& p, const LazyPoint& q, double wp, double wq);
+// Lazy versions for points that do not stay where they are: make() returns the exact point.
+LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, Vec3 p, Vec3 q, std::function<ExactPoint()> make);
+LazyPoint lazy_crossing(const LazyPoint& p, const LazyPoint& q, const LazyPoint& u, const LazyPoint& v, int drop_axis,
+                        std::function<ExactPoint()> make);
 
 bool operator==(const ExactPoint& p, const ExactPoint& q);
 
@@ -72,6 +79,9 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d, Budget* budget = nul
 int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis);
 int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis);
 int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);
+int orientation_2d_at(const LazyPoint& a, const LazyPoint& b, const LazyPoint& c, int drop_axis);
+// The sign of p[axis] - q[axis].
+int compare_along(const LazyPoint& p, const LazyPoint& q, int axis);
 
 // As point_in_triangle(). If float64 does not decide, most triangles miss the point when seen along an axis. This test
 // comes first, because it needs fewer digits than the test of the plane.

@@ -163,9 +163,13 @@ TriangleContact classify(const Corners& a, const Corners& b, Budget* budget) {
 }
 
 TriangleContact classify(const TrianglePlane& plane, const Corners& b, Budget* budget) {
+  const Corners a{plane.a, plane.b, plane.c};
+  // With two common corners, neither triangle has points on both sides of the other.
+  const auto common = std::count_if(b.begin(), b.end(), [&](Vec3 p) { return p == a[0] || p == a[1] || p == a[2]; });
+  if (common >= 2) return TriangleContact::touching;
   const std::array<int, 3> sb = sides(plane, b, budget);
   if (all_strictly_on_one_side(sb)) return TriangleContact::disjoint;
-  const Corners a{plane.a, plane.b, plane.c};
+  if (common == 1 && !straddles(sb)) return TriangleContact::touching;
   const std::array<int, 3> sa = sides(b, a, budget);
   if (all_strictly_on_one_side(sa)) return TriangleContact::disjoint;
   if (all_zero(sa) || all_zero(sb)) {
@@ -184,25 +188,28 @@ TriangleContact classify(const TrianglePlane& plane, const Corners& b, Budget* b
                                                           : TriangleContact::touching;
 }
 
-CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
-  if (collinear(a[0], a[1], a[2]) || collinear(b[0], b[1], b[2])) return CoplanarOverlap::none;
-  if (!all_zero(sides(a, b))) return CoplanarOverlap::none;
-  const int axis = projection_axis(rounded_normal(a[0], a[1], a[2]));
-  const int turn_a = orientation_2d(a[0], a[1], a[2], axis);
-  const int turn_b = orientation_2d(b[0], b[1], b[2], axis);
+bool share_area(const Corners& a, const Corners& b, int drop_axis) {
   // Convex sets have no common area if a line along an edge of one separates them.
-  const auto edge_parts = [&](const Corners& t, int turn, const Corners& other) {
+  const auto edge_parts = [&](const Corners& t, const Corners& other) {
+    const int turn = orientation_2d(t[0], t[1], t[2], drop_axis);
     for (int i = 0; i < 3; ++i) {
       bool outside = true;
       for (const Vec3& p : other) {
-        outside = outside && turn * orientation_2d(t[i], t[(i + 1) % 3], p, axis) <= 0;
+        outside = outside && turn * orientation_2d(t[i], t[(i + 1) % 3], p, drop_axis) <= 0;
       }
       if (outside) return true;
     }
     return false;
   };
-  if (edge_parts(a, turn_a, b) || edge_parts(b, turn_b, a)) return CoplanarOverlap::none;
-  return turn_a == turn_b ? CoplanarOverlap::agreeing : CoplanarOverlap::opposing;
+  return !edge_parts(a, b) && !edge_parts(b, a);
+}
+
+CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
+  if (collinear(a[0], a[1], a[2]) || collinear(b[0], b[1], b[2]) || !all_zero(sides(a, b))) return CoplanarOverlap::none;
+  const int axis = projection_axis(rounded_normal(a[0], a[1], a[2]));
+  if (!share_area(a, b, axis)) return CoplanarOverlap::none;
+  const bool agree = orientation_2d(a[0], a[1], a[2], axis) == orientation_2d(b[0], b[1], b[2], axis);
+  return agree ? CoplanarOverlap::agreeing : CoplanarOverlap::opposing;
 }
 
 std::array<PlaneMeeting, 2> crossing_ends(const Corners& a, const Corners& b) {

@@ -26,6 +26,9 @@ enum class CoplanarOverlap {
   opposing,  // common area, normals in opposite directions
 };
 
+// Whether two triangles of one plane share a patch of positive area, as seen along the axis.
+bool share_area(const Corners& a, const Corners& b, int drop_axis);
+
 // Whether two triangles lie in one plane and share a patch of positive area.
 CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b);
 

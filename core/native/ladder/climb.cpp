@@ -21,6 +21,9 @@ namespace {
 constexpr std::size_t kTogether = 8;
 constexpr std::size_t kTurns = 4;
 
+// Most pairs are quick.
+constexpr std::size_t kBetweenPolls = 64;
+
 // Vertices of a body that are worth a thread of their own.
 constexpr std::size_t kManyVertices = 8192;
 
@@ -53,7 +56,8 @@ double share_within(const Aabb& box, const Aabb& other) {
 
 class Climber {
  public:
-  Climber(const ClimbRequest& request, Rung first, Rung last) : request_(request), first_(first), last_(last) {}
+  Climber(const ClimbRequest& request, Rung first, Rung last, const Poll& poll)
+      : request_(request), first_(first), last_(last), poll_(poll) {}
 
   Climb take() {
     climb_rungs();
@@ -131,7 +135,7 @@ class Climber {
     }
     if (overlap && boxes_nest()) {
       timed(kNesting, [&] {
-        climb_.nesting = mesh_relation(*request_.a->surface(), *request_.b->surface()).relation;
+        climb_.nesting = mesh_relation(*request_.a->surface(), *request_.b->surface(), poll_).relation;
         return true;
       });
     }
@@ -212,10 +216,11 @@ class Climber {
       }
       if (!climb_.triangles) {
         make_whole_surfaces();
-        climb_.triangles = mesh_relation(*a_, *b_);
+        climb_.triangles = mesh_relation(*a_, *b_, poll_);
       }
       return true;
     });
+    if (!climb_.triangles->decided) return;
     const Relation relation = climb_.triangles->relation;
     if (relation == Relation::separated) {
       timed(kBand, [&] { return measure_gap(); });
@@ -249,21 +254,26 @@ class Climber {
 
   const ClimbRequest& request_;
   Rung first_, last_;
+  const Poll& poll_;
   std::shared_ptr<Surface> a_, b_;  // in the world, perhaps refined only near the other body
   Climb climb_;
 };
 
 }  // namespace
 
-Climb climb(const ClimbRequest& request, Rung first, Rung last) { return Climber(request, first, last).take(); }
+Climb climb(const ClimbRequest& request, Rung first, Rung last, const Poll& poll) {
+  return Climber(request, first, last, poll).take();
+}
 
-std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& requests, Rung last, unsigned threads) {
+std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& requests, Rung last, unsigned threads,
+                                            const Poll& poll) {
   std::vector<std::optional<Climb>> climbs(requests.size());
   const std::size_t workers = threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
   const std::size_t together = std::clamp<std::size_t>(requests.size() / (kTurns * workers), 1, kTogether);
   parallel_for(requests.size(), threads, [&](std::size_t i) {
+    if (poll && i % kBetweenPolls == 0) poll({});
     try {
-      climbs[i] = climb(requests[i], Rung::aabb, last);
+      climbs[i] = climb(requests[i], Rung::aabb, last, poll);
     } catch (const std::exception&) {  // climb() reports the error for this pair
       climbs[i].reset();
     }

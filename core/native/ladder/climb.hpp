@@ -60,10 +60,15 @@ struct Climb {
   std::array<std::int64_t, kBand + 1> nanoseconds{};
 };
 
-// From `first` to `last`. `last` runs even if it cannot settle the pair. Throws what making a body throws.
-Climb climb(const ClimbRequest& request, Rung first, Rung last);
+// From `first` to `last`. `last` runs even if it cannot settle the pair. Throws what making a body throws. poll: called
+// now and then.
+Climb climb(const ClimbRequest& request, Rung first, Rung last, const Poll& poll = {});
+
+// A poll throws this to end all climbs.
+struct ClimbsStopped {};
 
 // All pairs, on `threads` threads (0: one a core). Empty for a pair whose climb threw; climb() throws again for it.
-std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& requests, Rung last, unsigned threads);
+std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& requests, Rung last, unsigned threads,
+                                            const Poll& poll = {});
 
 }  // namespace satcheck

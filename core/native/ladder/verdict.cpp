@@ -17,6 +17,7 @@ bool has_common_interior(Relation relation) {
 Verdict by_triangles(const Climb& climb) {
   const MeshRelation& surfaces = *climb.triangles;
   Verdict verdict{surfaces.relation, true, surfaces.proven && !surfaces.hole, 0, {}};
+  if (!surfaces.decided) return verdict;
   if (has_common_interior(surfaces.relation)) {
     verdict.band = climb.way_within ? climb.way_within->side : BandSide::deeper;
   }

@@ -8,7 +8,6 @@
 #include "base/edge_table.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
-#include "mesh/cuts.hpp"
 #include "mesh/winding.hpp"
 
 namespace satcheck {
@@ -83,16 +82,6 @@ class Beheld {
   int axis_;
 };
 
-// Calls visit(other) -> bool until it returns false. Returns whether it never returned false.
-template <class Visit>
-bool visit_irregular_partners(const Surface& surface, std::uint32_t t, Visit visit, Budget* budget) {
-  const Mesh& mesh = surface.mesh;
-  const Beheld triangle(mesh, t, budget);
-  return visit_box(surface.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t u) {
-    return u == t || is_collinear(mesh, u) || !triangle.has_more_in_common_with(u) || visit(u);
-  }, budget);
-}
-
 // The neighbour across each edge of a triangle, if there is exactly one.
 class Neighbours {
  public:
@@ -120,33 +109,33 @@ class Neighbours {
 
 }  // namespace
 
-std::vector<std::uint32_t> irregular_partners(const Surface& surface, std::uint32_t t, Budget* budget) {
-  std::vector<std::uint32_t> partners;
-  visit_irregular_partners(surface, t, [&](std::uint32_t u) {
-    partners.push_back(u);
-    return true;
-  }, budget);
-  return partners;
-}
-
 bool has_irregular_partners(const Surface& surface, std::uint32_t t, Budget* budget) {
-  return !visit_irregular_partners(surface, t, [](std::uint32_t) { return false; }, budget);
+  const Mesh& mesh = surface.mesh;
+  const Beheld triangle(mesh, t, budget);
+  return !visit_box(surface.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t u) {
+    return u == t || is_collinear(mesh, u) || !triangle.has_more_in_common_with(u);
+  }, budget);
 }
 
-void visit_uniform_pieces(const Surface& surface, const std::function<bool(std::uint32_t)>& wanted,
-                          const std::function<bool(std::uint32_t, const Piece&, std::size_t)>& visit, Budget* budget) {
+void visit_uniform_parts(const std::vector<const Surface*>& surfaces, const std::function<bool(std::uint32_t)>& wanted,
+                         const std::function<bool(std::uint32_t)>& plain,
+                         const std::function<bool(const PlaneCells&)>& patch, Budget* budget) {
+  const Surface& surface = *surfaces[0];
   const Mesh& mesh = surface.mesh;
   const Neighbours neighbours(mesh);
   std::vector<bool> done(mesh.triangles.size(), false);
   for (std::uint32_t first = 0; first < mesh.triangles.size(); ++first) {
     if (done[first] || !wanted(first) || is_collinear(mesh, first)) continue;
-    const auto partners = irregular_partners(surface, first, budget);
-    const auto cuts = find_cuts(mesh, first, mesh, partners, Touching::left_out, budget);
-    const bool goes_on = visit_pieces(corners(mesh, first), cuts, Touching::left_out,
-                                      [&](const Piece& piece) { return visit(first, piece, partners.size()); }, budget);
-    if (!goes_on) return;
+    if (has_irregular_partners(surface, first, budget)) {
+      const PlaneCells cells(surfaces, {0, first}, SinglePoints::left_out, budget);
+      for (const PatchTriangle& member : cells.members()) {
+        if (member.surface == 0) done[member.triangle] = true;
+      }
+      if (!patch(cells)) return;
+      continue;
+    }
+    if (!plain(first)) return;
     done[first] = true;
-    if (!partners.empty()) continue;
     std::vector<std::uint32_t> queue{first};
     while (!queue.empty()) {
       const std::uint32_t t = queue.back();

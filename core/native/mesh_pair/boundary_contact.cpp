@@ -3,15 +3,18 @@
 // Other triangles are boundary in some of the pieces into which both meshes cut them. The common part of the boundaries
 // in the triangles t of A and u of B is closed. It consists of corners, stretches and pieces, which are the same in t
 // and u because both meshes cut the pieces. If the common part is not empty, it therefore contains a corner of a
-// boundary piece of t that is also a corner of a boundary piece of a triangle of B.
+// boundary piece of t that is also a corner of a boundary piece of a triangle of B. It is a node in both planes: the
+// triangles that name it in the plane of t meet that of u, too, and along different lines.
 #include "mesh_pair/boundary_contact.hpp"
 
 #include <algorithm>
 #include <map>
+#include <memory>
+#include <set>
 
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
-#include "mesh/cuts.hpp"
+#include "mesh/plane_cells.hpp"
 #include "mesh/self_contact.hpp"
 
 namespace satcheck {
@@ -30,36 +33,39 @@ class Boundary {
     return entry->second;
   }
 
-  // Whether a point of the mesh is in the closure of a boundary piece.
-  bool contains(const ExactPoint& x) const {
-    const auto here = triangles_at(surface_.mesh, surface_.bvh, x, {}, budget_);
-    return std::any_of(here.begin(), here.end(), [&](std::uint32_t t) { return reaches(t, x); });
+  // Whether x, a node of a patch of A, is in the closure of a boundary piece of this surface, B. Empty: not decided.
+  std::optional<bool> contains(const LazyPoint& x, const Surface& a) {
+    bool decided = true;
+    for (const std::uint32_t t : triangles_at(surface_.mesh, surface_.bvh, x, {}, budget_)) {
+      if (is_plain(t)) return true;
+      if (!has_irregular_partners(surface_, t, budget_)) continue;
+      const PlaneCells& cells = cells_of(t, a);
+      const std::vector<std::uint32_t> here = cells.outlines_at(x);
+      decided = decided && !here.empty();
+      for (const std::uint32_t outline : here) {
+        const auto sides = cells.beside(outline, 1);
+        if (sides && sides->is_boundary()) return true;
+        decided = decided && sides;
+      }
+    }
+    return decided ? std::optional(false) : std::nullopt;
   }
 
  private:
-  // Whether a boundary piece of triangle t ends at its point x.
-  bool reaches(std::uint32_t t, const ExactPoint& x) const {
-    const Corners c = corners(surface_.mesh, t);
-    const auto partners = irregular_partners(surface_, t, budget_);
-    auto cuts = find_cuts(surface_.mesh, t, surface_.mesh, partners, Touching::kept, budget_);
-    const ExactPoint corner = make_exact_point(c[0]);
-    cuts.push_back({corner == x ? make_exact_point(c[1]) : corner, x});
-    return !visit_pieces(c, cuts, Touching::kept, [&](const Piece& piece) {
-      const auto ends = piece.ends();
-      if (std::find(ends.begin(), ends.end(), x) == ends.end()) return true;
-      bool boundary = false;
-      sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
-        const auto sides = beside(surface_, p, c, budget_);
-        boundary = sides && sides->is_boundary();
-        return sides.has_value();
-      });
-      return !boundary;
-    }, budget_);
+  const PlaneCells& cells_of(std::uint32_t t, const Surface& a) {
+    if (const auto known = cells_.find(t); known != cells_.end()) return *known->second;
+    const std::vector<const Surface*> surfaces{&a, &surface_};
+    const auto cells = std::make_shared<const PlaneCells>(surfaces, PatchTriangle{1, t}, SinglePoints::all, budget_);
+    for (const PatchTriangle& member : cells->members()) {
+      if (member.surface == 1) cells_[member.triangle] = cells;
+    }
+    return *cells;
   }
 
   const Surface& surface_;
   Budget* budget_;
   std::map<std::uint32_t, bool> plain_;
+  std::map<std::uint32_t, std::shared_ptr<const PlaneCells>> cells_;  // of each triangle
 };
 
 }  // namespace
@@ -77,42 +83,38 @@ void find_plain_contact(const Surface& a, const Surface& b, const std::vector<Co
   Boundary of_a(a, budget), of_b(b, budget);
   for (const ContactPair& c : contacts) {
     if (!of_a.is_plain(c.a) || !of_b.is_plain(c.b)) continue;
-    samples.note_contact({c.a, c.b, contact_point(corners(a.mesh, c.a), corners(b.mesh, c.b))});
+    samples.note_contact([&] { return Evidence{c.a, c.b, contact_point(corners(a.mesh, c.a), corners(b.mesh, c.b))}; });
     return;
   }
 }
 
 void find_any_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
                       Samples& samples, Budget* budget) {
-  const Boundary of_b(b, budget);
-  std::map<std::uint32_t, std::vector<std::uint32_t>> partners_of;
-  for (const ContactPair& c : contacts) partners_of[c.a].push_back(c.b);
-  for (const auto& entry : partners_of) {  // a lambda may not capture the names of a structured binding in older Clang
-    const std::uint32_t t = entry.first;
-    const std::vector<std::uint32_t>& partners = entry.second;
-    const Corners c = corners(a.mesh, t);
-    if (is_collinear(c)) continue;
-    const auto own = irregular_partners(a, t, budget);
-    auto cuts = find_cuts(a.mesh, t, b.mesh, partners, Touching::kept, budget);
-    const auto own_cuts = find_cuts(a.mesh, t, a.mesh, own, Touching::kept, budget);
-    cuts.insert(cuts.end(), own_cuts.begin(), own_cuts.end());
-    const bool none = visit_pieces(c, cuts, Touching::kept, [&](const Piece& piece) {
-      bool boundary = false;
-      const bool known = sample_piece(piece, own.size() + partners.size(), [&](const ExactPoint& p) {
-        const auto sides = beside(a, p, c, budget);
-        boundary = sides && sides->is_boundary();
-        return sides.has_value();
-      });
-      if (!known) samples.fail();
-      if (!boundary) return true;
-      for (const ExactPoint& end : piece.ends()) {
-        if (!of_b.contains(end)) continue;
-        samples.note_contact({t, partners[0], end.rounded});
-        return false;
+  Boundary of_b(b, budget);
+  std::map<std::uint32_t, std::uint32_t> partner_of;
+  for (const ContactPair& c : contacts) partner_of.try_emplace(c.a, c.b);
+  std::set<std::uint32_t> done;
+  for (const auto& [t, partner] : partner_of) {
+    if (done.contains(t) || is_collinear(corners(a.mesh, t))) continue;
+    const PlaneCells cells({&a, &b}, {0, t}, SinglePoints::all, budget);
+    for (const PatchTriangle& member : cells.members()) {
+      if (member.surface == 0) done.insert(member.triangle);
+    }
+    std::set<std::uint32_t> tried;
+    for (const std::uint32_t outline : cells.outlines()) {
+      const auto sides = cells.beside(outline, 0);
+      if (!sides) samples.fail();
+      if (!sides || !sides->is_boundary()) continue;
+      for (const std::uint32_t node : cells.nodes_of(outline)) {
+        if (!tried.insert(node).second) continue;
+        const auto contains = of_b.contains(cells.node(node), a);
+        if (!contains) samples.fail();
+        if (!contains.value_or(false)) continue;
+        const Evidence where{t, partner, cells.node(node).rounded};
+        samples.note_contact([&] { return where; });
+        return;
       }
-      return true;
-    }, budget);
-    if (!none) return;
+    }
   }
 }
 

@@ -1,13 +1,12 @@
 // The planes of all triangles cut space into cells with constant winding numbers. The relation of two bodies depends on
 // three facts: which combinations of (in A, in B) occur, whether the boundaries meet, and how their sheets lie. A cell
-// is bounded by pieces of triangles, so one exact generic point of every piece shows all combinations. Not every piece
-// needs a sample:
+// is bounded by pieces of triangles, so the winding numbers beside every piece show all combinations. Not every piece
+// has to be known:
 //
 // * Triangles without contact: each connected region lies on one side of the other surface. One winding number of the
 //   other solid for each region is enough, with those of its own solid.
-// * Triangles in contact: edges of the other mesh in its plane and triangles that cross it cut a triangle into pieces.
-//   If its own mesh meets itself, that mesh cuts it too. One sample for each piece is enough, with the winding numbers
-//   of both meshes on both sides.
+// * Triangles in contact: mesh/plane_cells.hpp cuts them into pieces, with all triangles that overlap them in their
+//   plane, and finds the winding numbers of both meshes on both sides.
 // * When the pieces of one surface S are known, triangles of the other surface that do not meet their own mesh need no
 //   cuts by S. A path between neighbouring cells inside, or outside, the other solid passes either no piece of S or a
 //   piece that has already shown both combinations. A sheet meets its own mesh, so it is always cut.
@@ -15,11 +14,12 @@
 #include "mesh_pair/contact.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
-#include "mesh/cuts.hpp"
+#include "mesh/plane_cells.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh_pair/boundary_contact.hpp"
 #include "mesh_pair/free_regions.hpp"
@@ -35,8 +35,6 @@ constexpr int kCrossingSamples = 4;
 struct ContactTriangle {
   std::uint32_t triangle;
   std::vector<std::uint32_t> partners;  // of the other mesh
-  std::vector<std::uint32_t> own;       // irregular partners in its own mesh
-  std::vector<PlaneSegment> cuts;
 };
 
 class ContactSide {
@@ -44,7 +42,7 @@ class ContactSide {
   ContactSide(const Side& side, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) : side_(side) {
     std::sort(pairs.begin(), pairs.end());
     for (const auto& [triangle, partner] : pairs) {
-      if (contacts_.empty() || contacts_.back().triangle != triangle) contacts_.push_back({triangle, {}, {}, {}});
+      if (contacts_.empty() || contacts_.back().triangle != triangle) contacts_.push_back({triangle, {}});
       contacts_.back().partners.push_back(partner);
     }
   }
@@ -56,45 +54,48 @@ class ContactSide {
     return {side_, std::move(in_contact)};
   }
 
-  // Returns the approximate number of stretches that bound the cut triangles.
-  std::size_t prepare_cuts() {
-    const Mesh& mesh = side_.self.mesh;
-    std::size_t stretches = 0;
-    std::erase_if(contacts_, [&](const ContactTriangle& c) {
-      const Corners t = corners(mesh, c.triangle);
-      return collinear(t[0], t[1], t[2]);
-    });
-    for (ContactTriangle& c : contacts_) {
-      c.own = irregular_partners(side_.self, c.triangle, side_.budget);
-      c.cuts = find_cuts(mesh, c.triangle, side_.other.mesh, c.partners, Touching::left_out, side_.budget);
-      const auto own_cuts = find_cuts(mesh, c.triangle, mesh, c.own, Touching::left_out, side_.budget);
-      c.cuts.insert(c.cuts.end(), own_cuts.begin(), own_cuts.end());
-      stretches += c.cuts.empty() ? 1 : 3 + c.cuts.size();
-    }
-    return stretches;
-  }
+  std::size_t count() const { return contacts_.size(); }
 
   enum class Cut { all, self_meeting };
 
-  void sample(Cut cut, Samples& samples) const {
+  // other: the other side, whose triangles are named beside those of this one.
+  void sample(Cut cut, const ContactSide& other, Samples& samples) {
     for (const ContactTriangle& c : contacts_) {
-      const bool whole = cut == Cut::self_meeting && c.own.empty();
-      const bool goes_on = visit_pieces(
-          corners(side_.self.mesh, c.triangle), whole ? std::vector<PlaneSegment>{} : c.cuts,
-          Touching::left_out, [&](const Piece& piece) {
-            const bool known = sample_piece(piece, c.partners.size() + c.own.size(), [&](const ExactPoint& p) {
-              return samples.note_at(side_, c.triangle, c.partners[0], p);
-            });
-            if (!known) samples.fail();
-            return !samples.settled();
-          }, side_.budget);
-      if (!goes_on) return;
+      const Corners t = corners(side_.self.mesh, c.triangle);
+      if (samples.settled()) return;
+      if (collinear(t[0], t[1], t[2]) || sampled_.contains(c.triangle)) continue;
+      if (cut == Cut::self_meeting && !has_irregular_partners(side_.self, c.triangle, side_.budget)) {
+        const bool known = sample_triangle(t, c.partners.size(), [&](const ExactPoint& p) {
+          return samples.note_at(side_, c.triangle, c.partners[0], p);
+        });
+        if (!known) samples.fail();
+      } else {
+        sample_patch(c.triangle, other, samples);
+      }
     }
   }
 
+  // Triangles that patches of the other side contain.
+  void leave_out(const ContactSide& other) { sampled_.insert(other.sampled_there_.begin(), other.sampled_there_.end()); }
+
  private:
+  void sample_patch(std::uint32_t triangle, const ContactSide& other, Samples& samples) {
+    const PlaneCells cells({&side_.self, &side_.other}, {0, triangle}, SinglePoints::left_out, side_.budget);
+    for (const PatchTriangle& member : cells.members()) {
+      (member.surface == 0 ? sampled_ : sampled_there_).insert(member.triangle);
+    }
+    samples.note_cells(side_, cells, [&](PatchTriangle t) { return (t.surface == 0 ? *this : other).partner_of(t.triangle); });
+  }
+
+  std::uint32_t partner_of(std::uint32_t triangle) const {
+    const auto at = std::lower_bound(contacts_.begin(), contacts_.end(), triangle,
+                                     [](const ContactTriangle& c, std::uint32_t t) { return c.triangle < t; });
+    return at != contacts_.end() && at->triangle == triangle ? at->partners[0] : kNoTriangle;
+  }
+
   Side side_;
   std::vector<ContactTriangle> contacts_;
+  std::unordered_set<std::uint32_t> sampled_, sampled_there_;  // triangles of patches: of this side, of the other
 };
 
 // Notes a generic point of a crossing. Each body has one winding number on each side of its triangle, and the triangle
@@ -103,7 +104,7 @@ bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, con
                    Budget* budget) {
   const auto of_a = beside_inner(a, p, crossing.a, budget), of_b = beside_inner(b, p, crossing.b, budget);
   if (!of_a || !of_b) return false;
-  const Evidence where{crossing.a, crossing.b, p.rounded};
+  const auto where = [&] { return Evidence{crossing.a, crossing.b, p.rounded}; };
   const Side side{a, b, true, budget};
   if (of_a->is_sheet() && of_b->is_sheet()) {
     samples.note_sheets_cross(where);
@@ -121,10 +122,12 @@ bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, con
   return true;
 }
 
-void sample_pieces(ContactSide& a, ContactSide& b, Samples& samples) {
-  const bool a_first = a.prepare_cuts() <= b.prepare_cuts();
-  (a_first ? a : b).sample(ContactSide::Cut::all, samples);
-  if (!samples.settled()) (a_first ? b : a).sample(ContactSide::Cut::self_meeting, samples);
+// First the side with fewer triangles, which are the larger ones: the triangles of the other side are rarely cut then.
+void sample_patches(ContactSide& a, ContactSide& b, Samples& samples) {
+  ContactSide &first = a.count() <= b.count() ? a : b, &second = &first == &a ? b : a;
+  first.sample(ContactSide::Cut::all, second, samples);
+  second.leave_out(first);
+  second.sample(ContactSide::Cut::self_meeting, first, samples);
 }
 
 }  // namespace
@@ -156,7 +159,7 @@ PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<Co
   for (const FreeRegions& f : free) f.sample_first(samples);
   for (const FreeRegions& f : free) f.sample_rest(samples);
   if (samples.settled()) return samples.facts();
-  sample_pieces(side_a, side_b, samples);
+  sample_patches(side_a, side_b, samples);
   if (!samples.facts().common) find_sheet_crossing(a, b, contacts, samples, budget);
   if (wanted == Wanted::relation && samples.contact_matters()) find_any_contact(a, b, contacts, samples, budget);
   return samples.facts();

@@ -13,16 +13,21 @@ namespace {
 template <class Holds>
 bool holds_beside_all(const Surface& solid, Holds holds) {
   bool all_hold = true;
+  const auto note = [&](const std::optional<Beside>& sides) {
+    all_hold = all_hold && sides && holds(*sides);
+    return sides.has_value();
+  };
   const auto all = [](std::uint32_t) { return true; };
-  visit_uniform_pieces(solid, all, [&](std::uint32_t t, const Piece& piece, std::size_t others) {
-    const bool known = sample_piece(piece, others, [&](const ExactPoint& p) {
-      const auto sides = beside(solid, p, corners(solid.mesh, t));
-      all_hold = all_hold && (!sides || holds(*sides));
-      return sides.has_value();
-    });
-    all_hold = all_hold && known;
+  const auto plain = [&](std::uint32_t t) {
+    const Corners c = corners(solid.mesh, t);
+    sample_triangle(c, 0, [&](const ExactPoint& p) { return note(beside(solid, p, c)); });
     return all_hold;
-  });
+  };
+  const auto patch = [&](const PlaneCells& cells) {
+    for (const std::uint32_t outline : cells.outlines()) note(cells.beside(outline, 0));
+    return all_hold;
+  };
+  visit_uniform_parts({&solid}, all, plain, patch);
   return all_hold;
 }
 

@@ -69,11 +69,8 @@ void FreeRegions::sample_rest(Samples& samples) const {
 
 void FreeRegions::sample_first_of(const Region& region, Samples& samples) const {
   const Corners c = corners(side_.self.mesh, region.triangle);
-  if (!collinear(c[0], c[1], c[2])) {
-    visit_pieces(c, {}, Touching::left_out, [&](const Piece& piece) {
-      return samples.note_free(side_, region.triangle, piece.sample(0), region.theirs);
-    }, side_.budget);
-  }
+  if (collinear(c[0], c[1], c[2])) return;
+  sample_triangle(c, 0, [&](const ExactPoint& p) { return samples.note_free(side_, region.triangle, p, region.theirs); });
 }
 
 void FreeRegions::sample_every_piece(Samples& samples) const {
@@ -85,13 +82,16 @@ void FreeRegions::sample_every_piece(Samples& samples) const {
   }
   const auto theirs = [&](std::uint32_t t) { return theirs_of_set[sets.find(mesh.triangles[t][0])]; };
   const auto wanted = [&](std::uint32_t t) { return is_free(t) && samples.may_learn(side_, theirs(t)); };
-  visit_uniform_pieces(side_.self, wanted, [&](std::uint32_t t, const Piece& piece, std::size_t others) {
-    const bool known = sample_piece(piece, others, [&](const ExactPoint& p) {
-      return samples.note_free(side_, t, p, theirs(t));
-    });
+  const auto plain = [&](std::uint32_t t) {
+    const bool known = sample_triangle(corners(mesh, t), 0, [&](const ExactPoint& p) { return samples.note_free(side_, t, p, theirs(t)); });
     if (!known) samples.fail();
     return !samples.settled();
-  }, side_.budget);
+  };
+  const auto patch = [&](const PlaneCells& cells) {
+    samples.note_cells(side_, cells, [](PatchTriangle) { return kNoTriangle; });
+    return !samples.settled();
+  };
+  visit_uniform_parts({&side_.self, &side_.other}, wanted, plain, patch, side_.budget);
 }
 
 }  // namespace satcheck

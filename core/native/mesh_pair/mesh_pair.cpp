@@ -13,6 +13,10 @@
 namespace satcheck {
 namespace {
 
+// The most steps of a pair, about five seconds, and of each triangle in addition. Triangles that meet in an orderly way
+// take a few thousand.
+constexpr std::uint64_t kPairWork = 5'000'000'000, kWorkOfTriangle = 200'000;
+
 // The triangles by coordinates, each rotated to start at its least corner.
 std::vector<Corners> canonical_triangles(const Mesh& mesh, bool keep_winding) {
   const auto less = [](Vec3 p, Vec3 q) {
@@ -171,16 +175,41 @@ MeshRelation mirrored(MeshRelation r) {
   return r;
 }
 
-MeshRelation relation_of(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
-  return comes_before(a, b) ? relation_in_order(a, b, wanted, budget) : mirrored(relation_in_order(b, a, wanted, budget));
+MeshRelation relation_of(const Surface& a, const Surface& b, Wanted wanted, Budget& budget) {
+  return comes_before(a, b) ? relation_in_order(a, b, wanted, &budget) : mirrored(relation_in_order(b, a, wanted, &budget));
+}
+
+MeshRelation undecided() {
+  MeshRelation result = make_relation(Relation::penetrating, {});
+  result.proven = result.decided = false;
+  return result;
+}
+
+// payer: pays for the steps, if any.
+template <class Ask>
+MeshRelation within_budget(const Surface& a, const Surface& b, Budget* payer, const Poll& poll, Ask ask) {
+  Budget budget = Budget::that_stops(kPairWork + kWorkOfTriangle * (a.mesh.triangles.size() + b.mesh.triangles.size()), poll);
+  MeshRelation result;
+  try {
+    result = ask(budget);
+  } catch (const BudgetSpent&) {
+    result = undecided();
+  }
+  spend(payer, budget.spent());
+  return result;
 }
 
 }  // namespace
 
-MeshRelation mesh_relation(const Surface& a, const Surface& b) { return relation_of(a, b, Wanted::relation, nullptr); }
+MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll) {
+  return within_budget(a, b, nullptr, poll, [&](Budget& budget) { return relation_of(a, b, Wanted::relation, budget); });
+}
 
 MeshRelation overlap_relation(const Surface& a, const Surface& b, Budget* budget) {
-  return relation_of(a, b, Wanted::overlap, budget);
+  const Poll poll = [&](const SearchState&) {
+    if (budget != nullptr) budget->tell_again();
+  };
+  return within_budget(a, b, budget, poll, [&](Budget& steps) { return relation_of(a, b, Wanted::overlap, steps); });
 }
 
 MeshRelation closed_relation(const Surface& a, const Surface& b, Budget* budget) {

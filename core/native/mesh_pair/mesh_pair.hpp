@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/budget.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -30,7 +31,9 @@ struct OpenHole {
 
 struct MeshRelation {
   Relation relation = Relation::separated;
-  bool proven = true;  // false: a degenerate contact was decided by samples, or a hole leaves it open
+  // false: a degenerate contact was decided by samples, a hole leaves it open, or it is not decided
+  bool proven = true;
+  bool decided = true;  // false: deciding takes more steps than a pair may; the relation then says nothing
   std::optional<OpenHole> hole;  // if set, the relation is that of the surfaces without fills
   std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // evidence
   std::optional<Vec3> point;  // a common point, rounded
@@ -39,7 +42,8 @@ struct MeshRelation {
   std::size_t judged = 0;  // pairs of triangles in contact that needed samples
 };
 
-MeshRelation mesh_relation(const Surface& a, const Surface& b);
+// The number of steps is limited, with room for each triangle. poll: called now and then.
+MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll = {});
 
 // The same if only a common interior matters, which is faster. `separated` may be touching. With `contains` or
 // `inside`, the inner body may reach the surface of the outer one.

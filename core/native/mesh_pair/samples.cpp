@@ -5,7 +5,7 @@ namespace satcheck {
 bool Samples::note_free(const Side& side, std::uint32_t t, const ExactPoint& p, int theirs) {
   const auto mine = beside(side.self, p, corners(side.self.mesh, t), side.budget);
   if (!mine) return false;
-  note_beside(side, *mine, {theirs, theirs}, side.evidence(t, kNoTriangle, p.rounded));
+  note_beside(side, *mine, {theirs, theirs}, [&] { return side.evidence(t, kNoTriangle, p.rounded); });
   return true;
 }
 
@@ -15,7 +15,7 @@ bool Samples::note_at(const Side& side, std::uint32_t t, std::uint32_t partner, 
   if (!theirs) return false;
   const auto mine = beside(side.self, p, c, side.budget);
   if (!mine) return false;
-  note_beside(side, *mine, *theirs, side.evidence(t, partner, p.rounded));
+  note_beside(side, *mine, *theirs, [&] { return side.evidence(t, partner, p.rounded); });
   return true;
 }
 

@@ -1,8 +1,10 @@
 // Facts about a pair of surfaces from exact sample points.
 #pragma once
 
+#include <unordered_map>
+
 #include "exact/triangle_pair.hpp"
-#include "mesh/flat_cells.hpp"
+#include "mesh/plane_cells.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/winding.hpp"
 #include "mesh_pair/pair_facts.hpp"
@@ -49,8 +51,9 @@ class Samples {
     return !facts_.contact && (!facts_.common || facts_.a_alone != facts_.b_alone);
   }
 
-  // The winding numbers on both sides of a triangle of side.self, next to a generic point of it.
-  void note_beside(const Side& side, const Beside& mine, const Beside& theirs, const Evidence& where) {
+  // where(): the evidence, for a fact that is new. The winding numbers on both sides of a triangle of side.self, next to a generic point of it.
+  template <class Where>
+  void note_beside(const Side& side, const Beside& mine, const Beside& theirs, const Where& where) {
     note(side, mine.front, theirs.front, where);
     note(side, mine.back, theirs.back, where);
     if (mine.is_sheet()) note_sheet(side, true, theirs, where);
@@ -60,33 +63,37 @@ class Samples {
 
   // Notes a sheet of side.self (self) or of the other body. other: winding numbers, beside the sheet, of the body that
   // it does not belong to.
-  void note_sheet(const Side& side, bool self, const Beside& other, const Evidence& where) {
+  template <class Where>
+  void note_sheet(const Side& side, bool self, const Beside& other, const Where& where) {
     if (other.front != 0 && other.back != 0 && !facts_.common) {
       facts_.common = true;
-      facts_.overlap = where;
+      facts_.overlap = where();
     }
     if (other.front == 0 && other.back == 0 && !other.on_surface) alone(side, self) = true;
   }
 
   // Two sheets pass through each other.
-  void note_sheets_cross(const Evidence& where) {
-    if (!facts_.common) facts_.overlap = where;
+  template <class Where>
+  void note_sheets_cross(const Where& where) {
+    if (!facts_.common) facts_.overlap = where();
     facts_.common = facts_.a_alone = facts_.b_alone = true;
     note_contact(where);
   }
 
   // The winding numbers at one point.
-  void note(const Side& side, int mine, int theirs, const Evidence& where) {
+  template <class Where>
+  void note(const Side& side, int mine, int theirs, const Where& where) {
     if (mine != 0 && theirs != 0 && !facts_.common) {
       facts_.common = true;
-      facts_.overlap = where;
+      facts_.overlap = where();
     }
     if (mine != 0 && theirs == 0) alone(side, true) = true;
     if (mine == 0 && theirs != 0) alone(side, false) = true;
   }
 
-  void note_contact(const Evidence& where) {
-    if (!facts_.contact) facts_.touch = where;
+  template <class Where>
+  void note_contact(const Where& where) {
+    if (!facts_.contact) facts_.touch = where();
     facts_.contact = true;
   }
 
@@ -96,6 +103,41 @@ class Samples {
 
   // The same for any point; `partner` is the triangle to name beside t.
   bool note_at(const Side& side, std::uint32_t t, std::uint32_t partner, const ExactPoint& p);
+
+  // The cells of a patch of side.self (0) and side.other (1). partner(t): the triangle to name beside one that is alone in
+  // the patch.
+  template <class Partner>
+  void note_cells(const Side& side, const PlaneCells& cells, Partner partner) {
+    bool sheets[2] = {true, true}, solids[2] = {true, true};  // whether all cells of a surface are of this kind
+    for (const std::uint32_t outline : cells.outlines()) {
+      if (settled()) return;
+      const auto mine = cells.beside(outline, 0), theirs = cells.beside(outline, 1);
+      for (int s = 0; s < 2; ++s) {
+        const auto& beside = s == 0 ? mine : theirs;
+        if (beside && !beside->on_surface) continue;
+        sheets[s] = sheets[s] && beside && beside->is_sheet();
+        solids[s] = solids[s] && beside && !beside->is_sheet();
+      }
+      if (!mine || !theirs) {
+        fail();
+        continue;
+      }
+      note_beside(side, *mine, *theirs, [&] {
+        const ExactPoint p = cells.inside(outline);
+        auto [t, u] = cells.triangles_at(p);
+        if (t == kNoTriangle) t = partner(PatchTriangle{1, u});
+        if (u == kNoTriangle) u = partner(PatchTriangle{0, t});
+        return side.evidence(t, u, p.rounded);
+      });
+    }
+    for (const PatchTriangle& member : cells.members()) {
+      const int s = member.surface;
+      if (sheets[s] || solids[s]) is_sheet_[(s == 0) == side.self_is_a ? 0 : 1][member.triangle] = sheets[s];
+    }
+  }
+
+  // Whether triangles of A (0) and B (1) are sheets, of those whose patches have shown it.
+  const std::unordered_map<std::uint32_t, bool>& is_sheet(int body) const { return is_sheet_[body]; }
 
   void fail() { facts_.proven = false; }
 
@@ -108,15 +150,17 @@ class Samples {
   }
 
   PairFacts facts_;
+  std::unordered_map<std::uint32_t, bool> is_sheet_[2];
 };
 
-// Tries points of the piece until note(point) returns true. A point gives no answer if it lies on a triangle in another
-// plane. If all such triangles cut the piece, only single points are affected. A triangle that does not cut it meets it
-// in a line, which contains at most two of the points. `others`: the number of triangles that the piece meets.
+// Tries points of the triangle until note(point) returns true. A point gives no answer if it lies on a triangle in
+// another plane. Such a triangle meets this one in a line, and no three of the points lie on a line. `others`: how many
+// there are, at most.
 template <class Note>
-bool sample_piece(const Piece& piece, std::size_t others, Note note) {
+bool sample_triangle(const Corners& t, std::size_t others, Note note) {
   for (std::size_t k = 0; k <= 2 * others; ++k) {
-    if (note(piece.sample(static_cast<int>(k)))) return true;
+    const double n = 1.0 + static_cast<double>(k);
+    if (note(weighted_point(t[0], t[1], t[2], n, n * n, 1.0))) return true;
   }
   return false;
 }

@@ -12,107 +12,163 @@
 #include "mesh_pair/sheet_contact.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
+#include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "base/edge_table.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
-#include "mesh/cuts.hpp"
+#include "mesh/plane_cells.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh/winding.hpp"
 
 namespace satcheck {
 namespace {
 
-// An edge, and the opposite corner of each triangle at the edge.
+// Measured steps of a hinge and a triangle, of one wing of a hinge, and of two triangles and a way.
+constexpr std::uint64_t kHingeWork = 200, kWingWork = 50, kWayWork = 100;
+
+// An edge with triangles in contact, and the opposite corner of each sheet at the edge.
 struct Hinge {
   Vec3 p, q;
   std::vector<Vec3> wings;
+  std::vector<std::uint32_t> triangles;
 };
 
-// The triangles of a closed surface that are sheets, by the pieces into which their own surface cuts them. A triangle
+// The triangles of a closed surface that are sheets, by the cells into which their own surface cuts them. A triangle
 // that is partly a sheet counts as a sheet, and unsure() is then true.
 class Sheets {
  public:
-  Sheets(const Surface& surface, Budget* budget) : surface_(surface), budget_(budget) {}
+  Sheets(const Surface& surface, const std::unordered_map<std::uint32_t, bool>& known, Budget* budget)
+      : surface_(surface), budget_(budget) {
+    for (const auto& [t, is_sheet] : known) known_[t] = {is_sheet, is_sheet};
+  }
 
   bool include(std::uint32_t t) {
-    const auto [entry, is_new] = known_.try_emplace(t, false);
-    if (is_new) entry->second = is_sheet(t);
-    return entry->second;
+    if (!known_.contains(t)) look_at(t);
+    const auto [any, all] = known_.at(t);
+    unsure_ = unsure_ || any != all;
+    return any;
   }
 
   bool unsure() const { return unsure_; }
 
  private:
-  bool is_sheet(std::uint32_t t) {
+  struct Sheet {
+    bool any = false, all = false;
+  };
+
+  void look_at(std::uint32_t t) {
     const Corners c = corners(surface_.mesh, t);
-    if (collinear(c[0], c[1], c[2])) return false;
-    const auto partners = irregular_partners(surface_, t, budget_);
-    if (partners.empty()) return false;  // it has material on one side
-    bool any = false, all = true;
-    const auto cuts = find_cuts(surface_.mesh, t, surface_.mesh, partners, Touching::left_out, budget_);
-    visit_pieces(c, cuts, Touching::left_out,
-                 [&](const Piece& piece) {
-                   bool sheet = false;
-                   const bool known = sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
-                     const auto sides = beside(surface_, p, c, budget_);
-                     sheet = sides && sides->is_sheet();
-                     return sides.has_value();
-                   });
-                   any = any || sheet || !known;
-                   all = all && sheet;
-                   return true;
-                 }, budget_);
-    unsure_ = unsure_ || any != all;
-    return any;
+    known_[t] = {};
+    // A triangle that meets no other has material on one side.
+    if (collinear(c[0], c[1], c[2]) || !has_irregular_partners(surface_, t, budget_)) return;
+    const PlaneCells cells({&surface_}, {0, t}, SinglePoints::left_out, budget_);
+    const auto sheet_of = [&](const std::vector<std::uint32_t>& outlines) {
+      Sheet sheet{false, true};
+      for (const std::uint32_t outline : outlines) {
+        const auto sides = cells.beside(outline, 0);
+        sheet.any = sheet.any || !sides || sides->is_sheet();
+        sheet.all = sheet.all && sides && sides->is_sheet();
+      }
+      return sheet;
+    };
+    const Sheet patch = sheet_of(cells.outlines());
+    for (const PatchTriangle& member : cells.members()) {
+      known_[member.triangle] = patch.any == patch.all ? patch : sheet_of(cells.outlines_in(member));
+    }
   }
 
   const Surface& surface_;
   Budget* budget_;
-  std::unordered_map<std::uint32_t, bool> known_;
+  std::unordered_map<std::uint32_t, Sheet> known_;
   bool unsure_ = false;
 };
 
-// The hinges of sheets in contact, by triangle.
+// Pairs of triangles, by the first one.
+class Partners {
+ public:
+  explicit Partners(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) : pairs_(std::move(pairs)) {
+    std::sort(pairs_.begin(), pairs_.end());
+  }
+
+  bool any(std::uint32_t t) const {
+    const auto at = from(t);
+    return at != pairs_.end() && at->first == t;
+  }
+
+  // The partners of all of them, each once.
+  std::vector<std::uint32_t> of(const std::vector<std::uint32_t>& triangles) const {
+    std::vector<std::uint32_t> partners;
+    for (const std::uint32_t t : triangles) {
+      for (auto at = from(t); at != pairs_.end() && at->first == t; ++at) partners.push_back(at->second);
+    }
+    sort_once(partners);
+    return partners;
+  }
+
+  // Of a triangle of `triangles` and the partner t.
+  std::uint32_t with(const std::vector<std::uint32_t>& triangles, std::uint32_t t) const {
+    return *std::find_if(triangles.begin(), triangles.end(),
+                         [&](std::uint32_t u) { return std::binary_search(pairs_.begin(), pairs_.end(), std::pair(u, t)); });
+  }
+
+  static void sort_once(std::vector<std::uint32_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  }
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>::const_iterator from(std::uint32_t t) const {
+    return std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(t, 0u));
+  }
+
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+};
+
+// The hinges of sheets in contact.
 class Hinges {
  public:
-  Hinges(const Mesh& mesh, Sheets& sheets, const std::vector<std::uint32_t>& triangles) {
-    std::vector<bool> wanted(mesh.triangles.size(), false);
-    for (const std::uint32_t t : triangles) wanted[t] = true;
+  Hinges(const Mesh& mesh, Sheets& sheets, const Partners& partners) {
     const EdgeTable edges(mesh.vertices.size(), mesh.triangles);
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const auto h = edges.half_edges(e);
-      if (std::none_of(h.begin(), h.end(), [&](std::uint32_t half_edge) { return wanted[half_edge / 3]; })) continue;
       const auto corner = [&](std::uint32_t half_edge, std::uint32_t step) {
         return mesh.triangles[half_edge / 3][(half_edge % 3 + step) % 3];
       };
+      Hinge hinge{mesh.vertices[corner(h[0], 0)], mesh.vertices[corner(h[0], 1)], {}, {}};
+      for (const std::uint32_t half_edge : h) {
+        if (partners.any(half_edge / 3)) hinge.triangles.push_back(half_edge / 3);
+      }
+      if (hinge.triangles.empty()) continue;
       std::vector<std::uint32_t> across;  // front and back of a sheet have one corner
       for (const std::uint32_t half_edge : h) {
         if (sheets.include(half_edge / 3)) across.push_back(corner(half_edge, 2));
       }
-      std::sort(across.begin(), across.end());
-      across.erase(std::unique(across.begin(), across.end()), across.end());
-      Hinge hinge{mesh.vertices[corner(h[0], 0)], mesh.vertices[corner(h[0], 1)], {}};
+      Partners::sort_once(across);
       for (const std::uint32_t v : across) hinge.wings.push_back(mesh.vertices[v]);
-      for (const std::uint32_t half_edge : h) by_triangle_[half_edge / 3].push_back(hinges_.size());
+      for (const std::uint32_t t : hinge.triangles) by_triangle_[t].push_back(static_cast<std::uint32_t>(hinges_.size()));
       hinges_.push_back(std::move(hinge));
     }
   }
 
-  // Whether `holds` is true for a hinge at the triangle.
-  template <class Holds>
-  bool any_at(std::uint32_t triangle, Holds holds) const {
-    const auto at = by_triangle_.find(triangle);
-    return at != by_triangle_.end() &&
-           std::any_of(at->second.begin(), at->second.end(), [&](std::size_t k) { return holds(hinges_[k]); });
+  const std::vector<Hinge>& all() const { return hinges_; }
+
+  // The hinges at any of the triangles, each once.
+  std::vector<std::uint32_t> at(const std::vector<std::uint32_t>& triangles) const {
+    std::vector<std::uint32_t> numbers;
+    for (const std::uint32_t t : triangles) {
+      const auto here = by_triangle_.find(t);
+      if (here != by_triangle_.end()) numbers.insert(numbers.end(), here->second.begin(), here->second.end());
+    }
+    Partners::sort_once(numbers);
+    return numbers;
   }
 
  private:
   std::vector<Hinge> hinges_;
-  std::unordered_map<std::uint32_t, std::vector<std::size_t>> by_triangle_;  // numbers of hinges: many pages may share one
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> by_triangle_;
 };
 
 // Whether the segment p q, in the plane of t, passes through the open triangle.
@@ -139,45 +195,48 @@ bool share_length(const Hinge& a, const Hinge& b) {
   return low(a) < high(b) && low(b) < high(a);
 }
 
-// Whether a rotation about the line p q from wing u meets x before v. orientation(p, q, u, w) > 0 if the rotation from
-// u to w is less than half a turn.
-bool strictly_between(Vec3 p, Vec3 q, Vec3 u, Vec3 v, Vec3 x) {
-  const int u_v = orientation(p, q, u, v), u_x = orientation(p, q, u, x), x_v = orientation(p, q, x, v);
-  if (u_v > 0) return u_x > 0 && x_v > 0;
-  if (u_v < 0) return u_x > 0 || x_v > 0;
-  return u_x > 0;  // u and v opposite each other
-}
-
 bool same_half_plane(Vec3 p, Vec3 q, Vec3 u, Vec3 v) {
   if (orientation(p, q, u, v) != 0) return false;
   for (int axis = 0; axis < 3; ++axis) {
     const int side = orientation_2d(p, q, u, axis);
     if (side != 0) return side == orientation_2d(p, q, v, axis);
   }
-  return true;  // a collinear triangle has no sides
+  return true;
 }
 
-// Whether two wings of A and two of B alternate.
+// Whether two wings of A and two of B alternate. Wings in one half-plane count once, and not if both have one there.
 bool alternate(const Hinge& a, const Hinge& b) {
   const Vec3 p = a.p, q = a.q;
-  const auto lies_in = [&](Vec3 u, const std::vector<Vec3>& wings) {
-    return std::any_of(wings.begin(), wings.end(), [&](Vec3 w) { return same_half_plane(p, q, u, w); });
+  struct Wing {
+    Vec3 at;
+    bool of_a;
   };
-  std::vector<Vec3> of_a, of_b;
-  for (const Vec3& u : a.wings) {
-    if (!lies_in(u, b.wings) && !lies_in(u, of_a)) of_a.push_back(u);
-  }
-  for (const Vec3& x : b.wings) {
-    if (!lies_in(x, a.wings)) of_b.push_back(x);
-  }
-  for (std::size_t j = 1; j < of_a.size(); ++j) {
-    for (std::size_t i = 0; i < j; ++i) {
-      const auto between = [&](Vec3 x) { return strictly_between(p, q, of_a[i], of_a[j], x); };
-      const auto count = std::count_if(of_b.begin(), of_b.end(), between);
-      if (count != 0 && count != std::ptrdiff_t(of_b.size())) return true;
+  std::vector<Wing> wings;
+  for (const Hinge* hinge : {&a, &b}) {
+    for (const Vec3& at : hinge->wings) {
+      if (!collinear(p, q, at)) wings.push_back({at, hinge == &a});
     }
   }
-  return false;
+  if (wings.empty()) return false;
+  const Vec3 first = wings[0].at;
+  const auto quarter = [&](Vec3 at) {
+    const int turn = orientation(p, q, first, at);
+    return turn == 0 ? (same_half_plane(p, q, first, at) ? 0 : 2) : turn > 0 ? 1 : 3;
+  };
+  std::stable_sort(wings.begin(), wings.end(), [&](const Wing& u, const Wing& v) {
+    const int quarter_u = quarter(u.at), quarter_v = quarter(v.at);
+    return quarter_u != quarter_v ? quarter_u < quarter_v : orientation(p, q, u.at, v.at) > 0;
+  });
+  std::vector<bool> around;  // whose wing it is
+  for (std::size_t i = 0; i < wings.size();) {
+    bool any[2] = {};
+    const std::size_t start = i;
+    for (; i < wings.size() && same_half_plane(p, q, wings[start].at, wings[i].at); ++i) any[wings[i].of_a ? 0 : 1] = true;
+    if (any[0] != any[1]) around.push_back(any[0]);
+  }
+  int changes = 0;
+  for (std::size_t i = 0; i < around.size(); ++i) changes += around[i] != around[(i + 1) % around.size()] ? 1 : 0;
+  return changes >= 4;
 }
 
 bool crosses_triangle(const Hinge& hinge, const Corners& t) {
@@ -191,18 +250,34 @@ bool crosses_triangle(const Hinge& hinge, const Corners& t) {
   return above && below && runs_through(hinge.p, hinge.q, t);
 }
 
-struct SheetPair {
-  std::uint32_t a, b;
-  Corners of_a, of_b;
-};
-
-bool crosses_at_edge(const SheetPair& pair, const Hinges& hinges_a, const Hinges& hinges_b) {
-  const auto crosses = [&](const Hinge& h) {
-    return crosses_triangle(h, pair.of_b) ||
-           hinges_b.any_at(pair.b, [&](const Hinge& k) { return share_length(h, k) && alternate(h, k); });
-  };
-  return hinges_a.any_at(pair.a, crosses) ||
-         hinges_b.any_at(pair.b, [&](const Hinge& k) { return crosses_triangle(k, pair.of_a); });
+// A triangle of A and one of B that meet at an edge along which the sheets cross.
+std::optional<ContactPair> crossing_at_edge(const Surface& a, const Surface& b, const Hinges& hinges_a, const Hinges& hinges_b,
+                                            const Partners& of_a, const Partners& of_b, Budget* budget) {
+  for (const Hinge& h : hinges_a.all()) {
+    const std::vector<std::uint32_t> partners = of_a.of(h.triangles);
+    spend(budget, (kHingeWork + kWingWork * h.wings.size()) * partners.size());
+    for (const std::uint32_t t : partners) {
+      if (crosses_triangle(h, corners(b.mesh, t))) return ContactPair{of_a.with(h.triangles, t), t};
+    }
+    for (const std::uint32_t number : hinges_b.at(partners)) {
+      const Hinge& k = hinges_b.all()[number];
+      spend(budget, kHingeWork);
+      if (!share_length(h, k)) continue;
+      spend(budget, kWingWork * (h.wings.size() + k.wings.size()));
+      if (!alternate(h, k)) continue;
+      for (const std::uint32_t t : k.triangles) {
+        if (std::binary_search(partners.begin(), partners.end(), t)) return ContactPair{of_a.with(h.triangles, t), t};
+      }
+    }
+  }
+  for (const Hinge& k : hinges_b.all()) {
+    const std::vector<std::uint32_t> partners = of_b.of(k.triangles);
+    spend(budget, (kHingeWork + kWingWork * k.wings.size()) * partners.size());
+    for (const std::uint32_t t : partners) {
+      if (crosses_triangle(k, corners(a.mesh, t))) return ContactPair{t, of_b.with(k.triangles, t)};
+    }
+  }
+  return std::nullopt;
 }
 
 // A dot product of a direction and a normal, both unit: far more than the rounding of 0.
@@ -226,19 +301,16 @@ bool leaves_over(const Corners& t, const Corners& other, double sign, Vec3 way) 
   });
 }
 
-bool leaves(const SheetPair& pair, Vec3 way) {
-  return leaves_over(pair.of_a, pair.of_b, 1, way) || leaves_over(pair.of_b, pair.of_a, -1, way);
+// Adds a normal to those of up to three different directions.
+void take(Vec3 normal, std::vector<Vec3>& chosen) {
+  const auto parallel = [&](Vec3 m) { return std::fabs(dot(m, normal)) > 1 - kSurelyAlong; };
+  if (chosen.size() < 3 && std::none_of(chosen.begin(), chosen.end(), parallel)) chosen.push_back(normal);
 }
 
-// Sums of up to three different normals, with both signs.
+// Sums of the normals, with both signs.
 std::vector<Vec3> ways_out(const std::vector<Vec3>& normals) {
-  std::vector<Vec3> chosen;
-  for (const Vec3& n : normals) {
-    const auto parallel = [&](Vec3 m) { return std::fabs(dot(m, n)) > 1 - kSurelyAlong; };
-    if (chosen.size() < 3 && std::none_of(chosen.begin(), chosen.end(), parallel)) chosen.push_back(n);
-  }
   std::vector<Vec3> ways{{}};
-  for (const Vec3& n : chosen) {
+  for (const Vec3& n : normals) {
     const std::size_t count = ways.size();
     for (std::size_t i = 0; i < count; ++i) {
       ways.push_back(ways[i] + n);
@@ -250,44 +322,41 @@ std::vector<Vec3> ways_out(const std::vector<Vec3>& normals) {
   return ways;
 }
 
-std::vector<SheetPair> sheet_pairs(const Surface& a, const Surface& b, Sheets& of_a, Sheets& of_b,
-                                   const std::vector<ContactPair>& contacts) {
-  std::vector<SheetPair> pairs;
-  for (const ContactPair& c : contacts) {
-    if (of_a.include(c.a) && of_b.include(c.b)) pairs.push_back({c.a, c.b, corners(a.mesh, c.a), corners(b.mesh, c.b)});
-  }
-  return pairs;
-}
-
-template <class Member>
-std::vector<std::uint32_t> triangles_of(const std::vector<SheetPair>& pairs, Member side) {
-  std::vector<std::uint32_t> result;
-  for (const SheetPair& pair : pairs) result.push_back(pair.*side);
-  return result;
-}
-
 }  // namespace
 
 void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Samples& samples,
                          Budget* budget) {
-  Sheets of_a(a, budget), of_b(b, budget);
-  const std::vector<SheetPair> pairs = sheet_pairs(a, b, of_a, of_b, contacts);
+  Sheets of_a(a, samples.is_sheet(0), budget), of_b(b, samples.is_sheet(1), budget);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs, mirrored;
+  for (const ContactPair& c : contacts) {
+    if (!of_a.include(c.a) || !of_b.include(c.b)) continue;
+    pairs.emplace_back(c.a, c.b);
+    mirrored.emplace_back(c.b, c.a);
+  }
   if (pairs.empty()) return;
-  const Hinges hinges_a(a.mesh, of_a, triangles_of(pairs, &SheetPair::a));
-  const Hinges hinges_b(b.mesh, of_b, triangles_of(pairs, &SheetPair::b));
+  const Partners partners_a(pairs), partners_b(std::move(mirrored));
+  const Hinges hinges_a(a.mesh, of_a, partners_a), hinges_b(b.mesh, of_b, partners_b);
+  if (const auto crossing = crossing_at_edge(a, b, hinges_a, hinges_b, partners_a, partners_b, budget)) {
+    if (of_a.unsure() || of_b.unsure()) return samples.fail();
+    samples.note_sheets_cross([&] {
+      return Evidence{crossing->a, crossing->b, contact_point(corners(a.mesh, crossing->a), corners(b.mesh, crossing->b))};
+    });
+    return;
+  }
   std::vector<Vec3> flat;  // normals of coplanar triangles that overlap
-  for (const SheetPair& pair : pairs) {
-    if (crosses_at_edge(pair, hinges_a, hinges_b)) {
-      if (of_a.unsure() || of_b.unsure()) return samples.fail();
-      samples.note_sheets_cross({pair.a, pair.b, contact_point(pair.of_a, pair.of_b)});
-      return;
-    }
-    if (coplanar_overlap(pair.of_a, pair.of_b) != CoplanarOverlap::none) flat.push_back(unit_normal(pair.of_a));
+  for (const auto& [ta, tb] : pairs) {
+    spend(budget, kWayWork);
+    const Corners c = corners(a.mesh, ta);
+    if (coplanar_overlap(c, corners(b.mesh, tb)) != CoplanarOverlap::none) take(unit_normal(c), flat);
   }
   if (flat.empty()) return;
   const std::vector<Vec3> ways = ways_out(flat);
   const bool frees = std::any_of(ways.begin(), ways.end(), [&](Vec3 way) {
-    return std::all_of(pairs.begin(), pairs.end(), [&](const SheetPair& pair) { return leaves(pair, way); });
+    return std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+      spend(budget, kWayWork);
+      const Corners c = corners(a.mesh, pair.first), d = corners(b.mesh, pair.second);
+      return leaves_over(c, d, 1, way) || leaves_over(d, c, -1, way);
+    });
   });
   if (!frees) samples.fail();
 }

@@ -28,6 +28,7 @@ class Traversal {
       stack.pop_back();
       const BvhNode &m = a_.bvh.nodes[i], &n = b_.bvh.nodes[j];
       ++contacts_.box_tests;
+      spend(budget_, kBoxWork);
       if (!meet(m.box, n.box)) continue;
       if (m.is_leaf() && n.is_leaf()) {
         test_leaves(m, n);
@@ -39,8 +40,6 @@ class Traversal {
         stack.emplace_back(i, n.first);
       }
     }
-    spend(budget_, kBoxWork * contacts_.box_tests + kTriangleWork * contacts_.triangle_tests +
-                       kContactWork * contacts_.contacts.size());
     return std::move(contacts_);
   }
 
@@ -63,10 +62,12 @@ class Traversal {
         if (!meets(b_, l, box)) continue;
         const std::uint32_t tb = b_.bvh.order[l];
         ++contacts_.triangle_tests;
+        spend(budget_, kTriangleWork);
         const TriangleContact contact = classify(plane, corners(b_.mesh, tb), budget_);
         if (contact == TriangleContact::disjoint) continue;
         if (contact == TriangleContact::crossing && !contacts_.crossing) contacts_.crossing = ContactPair{ta, tb};
         if (ended()) return;
+        spend(budget_, kContactWork);
         contacts_.contacts.push_back({ta, tb});
       }
     }

@@ -22,7 +22,7 @@ std::uint64_t work_of(Task task) {
 std::uint64_t work_in_plane(double slope) {
   const Vec3 a{0, 0, 0}, b{1, 0, slope}, c{0, 1, slope}, d{1, 1, 2 * slope};
   const std::uint64_t of_sign = work_of([&](Budget* budget) { orientation(a, b, c, d, budget); });
-  const Corners low{a, b, c}, high{d, b, c};
+  const Corners low{a, b, c}, high{Vec3{2, 0, 2 * slope}, Vec3{0, 2, 2 * slope}, Vec3{2, 2, 4 * slope}};
   const std::uint64_t of_pair = work_of([&](Budget* budget) { classify(low, high, budget); });
   CHECK(of_sign > 100);
   CHECK(of_pair >= 3 * of_sign);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "exact/predicates.hpp"
-#include "mesh/flat_cells.hpp"
 #include "mesh/topology.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
@@ -106,30 +105,6 @@ void sheets_that_meet_at_edges() {
   CHECK(relate(translate(flat, {4, 0, 0}), upright) == Relation::touching);
 }
 
-// Every piece of a triangle that lines cut is sampled: count the sign vectors that are seen.
-void pieces_of_a_cut_triangle() {
-  const std::array<Vec3, 3> t{Vec3{0, 0, 1}, Vec3{8, 0, 1}, Vec3{0, 8, 1}};
-  const auto cut = [](Vec3 p, Vec3 q) { return PlaneSegment{make_exact_point(p), make_exact_point(q)}; };
-  const std::vector<PlaneSegment> cuts{cut({-1, 2, 1}, {9, 2, 1}), cut({2, -1, 1}, {2, 9, 1}), cut({0, 0, 1}, {5, 5, 1})};
-  std::vector<int> seen;
-  visit_pieces(t, cuts, Touching::left_out, [&](const Piece& piece) {
-    int signs = 0;
-    const ExactPoint p = piece.sample(0);
-    CHECK(orientation(t[0], t[1], t[2], p) == 0);
-    for (int i = 0; i < 3; ++i) CHECK(orientation_2d_at(t[i], t[(i + 1) % 3], p, 2) == 1);
-    for (const PlaneSegment& cut : cuts) {
-      const int side = orientation_2d_at(cut.p, cut.q, p, 2);
-      CHECK(side != 0);
-      signs = signs * 2 + (side > 0 ? 1 : 0);
-    }
-    seen.push_back(signs);
-    return true;
-  });
-  std::sort(seen.begin(), seen.end());
-  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-  CHECK(seen.size() == 6);
-}
-
 void large_flush_contact() {
   Mesh grid;
   const std::uint32_t n = kSanitized ? 30 : 60;
@@ -168,6 +143,5 @@ UNIT(mesh_pair) {
   spheres();
   open_surfaces();
   sheets_that_meet_at_edges();
-  pieces_of_a_cut_triangle();
   large_flush_contact();
 }

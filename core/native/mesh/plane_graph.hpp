@@ -1,0 +1,129 @@
+// A planar graph of segments in one plane, traced by its half-edges.
+//
+// Method: Mark de Berg, Otfried Cheong, Marc van Kreveld, Mark Overmars, "Computational Geometry" (3rd ed. 2008),
+// chapter 2. Where we deviate: nodes have names, a vertex, an edge of a mesh that meets the plane, or two segments that
+// cross. Names of one point follow each other on a segment, where they become one node; no coordinates are compared
+// with a tolerance.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "exact/exact_point.hpp"
+#include "exact/ratio.hpp"
+#include "exact/triangle_pair.hpp"
+
+namespace satcheck {
+
+// What changes from the left of a segment to its right: the number of triangles that cover the plane there, and the
+// winding numbers of a surface just in front of the plane and behind it.
+struct PlaneChange {
+  int cover = 0, front = 0, back = 0;
+
+  bool operator==(const PlaneChange&) const = default;
+  PlaneChange operator-() const { return {-cover, -front, -back}; }
+  PlaneChange& operator+=(const PlaneChange& c) {
+    cover += c.cover;
+    front += c.front;
+    back += c.back;
+    return *this;
+  }
+};
+using PlaneChanges = std::array<PlaneChange, 2>;  // of two surfaces
+
+class PlaneGraph {
+ public:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  // plane: a triangle that is not collinear. Left and right are as seen from its front.
+  PlaneGraph(const Corners& plane, Budget* budget);
+  PlaneGraph(const PlaneGraph&) = delete;
+  PlaneGraph& operator=(const PlaneGraph&) = delete;
+
+  // A point in the plane, and the one where an edge pierces it.
+  std::uint32_t vertex(Vec3 p);
+  std::uint32_t piercing(Vec3 p, Vec3 q);
+  // Equal segments become one.
+  void add_segment(std::uint32_t from, std::uint32_t to, int surface, const PlaneChange& change);
+  // Call it after the last segment.
+  void build();
+
+  int axis() const { return axis_; }
+  int turn() const { return turn_; }
+  const LazyPoint& node(std::uint32_t number) const { return nodes_[number]; }
+  std::size_t node_count() const { return nodes_.size(); }
+  // The connected part of the graph that a node belongs to: a node of it.
+  std::uint32_t part(std::uint32_t node) const { return part_[node]; }
+  // +1: left of the way from p to q.
+  int side(std::uint32_t p, std::uint32_t q, const LazyPoint& of) const {
+    return turn_ * orientation_2d_at(nodes_[p], nodes_[q], of, axis_);
+  }
+
+  // Half-edge 2 k runs along edge k, 2 k + 1 back. An outline: what is on the left of half-edges that follow each other.
+  std::uint32_t half_edge_count() const { return static_cast<std::uint32_t>(next_.size()); }
+  std::uint32_t start(std::uint32_t h) const { return h % 2 ? edges_[h / 2].high : edges_[h / 2].low; }
+  std::uint32_t outline(std::uint32_t h) const { return outline_[h]; }
+  std::uint32_t outline_count() const { return static_cast<std::uint32_t>(first_.size()); }
+  std::uint32_t first(std::uint32_t outline) const { return first_[outline]; }
+  PlaneChanges changes(std::uint32_t h) const;
+  template <class Visit>
+  void visit(std::uint32_t outline, Visit visit) const {
+    std::uint32_t h = first_[outline];
+    do {
+      visit(h);
+      h = next_[h];
+    } while (h != first_[outline]);
+  }
+  // The half-edges along a segment.
+  std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to) const;
+
+  // A point on the left of a half-edge, before any other segment; another one for each attempt. It lies on the way to
+  // one of the nodes `corners`; empty if none is on the left.
+  std::optional<ExactPoint> inside_left_of(std::uint32_t h, const std::vector<std::uint32_t>& corners, int attempt) const;
+
+ private:
+  struct Segment {
+    std::uint32_t from, to;
+    PlaneChanges changes;
+    std::vector<std::uint32_t> stops;  // nodes inside it
+    std::vector<std::uint32_t> edges;
+  };
+  struct Edge {
+    std::uint32_t low, high;  // nodes
+    std::uint32_t segment;
+    bool forward;  // the segment runs from low to high
+    PlaneChanges changes;
+  };
+
+  void meet_segments();
+  void meet(std::uint32_t i, std::uint32_t k);
+  void stop_at(std::uint32_t segment, std::uint32_t node);
+  int axis_along(const Segment& s) const;
+  void cut_segments();
+  void sort_stops(Segment& s);
+  void merge_edges();
+  void trace();
+  void sort_around(std::vector<std::uint32_t>& half_edges) const;
+  std::uint32_t far_end(std::uint32_t h) const;
+  Ratio clear_way(const LazyPoint& from, const LazyPoint& to) const;
+
+  Corners plane_;
+  int axis_, turn_;
+  Budget* budget_;
+  std::vector<LazyPoint> nodes_;
+  std::map<std::array<double, 3>, std::uint32_t> vertices_;
+  std::map<std::array<double, 6>, std::uint32_t> piercings_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> segment_of_;
+  std::vector<Segment> segments_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> same_;  // names of one point
+  std::vector<std::uint32_t> part_;
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> next_, outline_;  // of each half-edge
+  std::vector<std::uint32_t> first_;           // of each outline: a half-edge
+};
+
+}  // namespace satcheck
