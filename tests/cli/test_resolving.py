@@ -226,7 +226,7 @@ motion = [{bodies = "door", translation = [5, 0, 0]}]
     ran = satcheck("resolve", str(scene))
     assert ran.code == 1
     assert (
-        "not resolved: door hits post at 2 of travel, near (2.5, 0, 0): only while they move, and"
+        "not resolved: door hits post at 2 of travel, near (2.5, 0.5, -0.5): only while they move,"
         in ran.out
     )
     assert "Nothing overlaps as the bodies are placed: nothing was moved." in ran.out

@@ -75,13 +75,15 @@ def test_hulls_and_triangles() -> None:
     assert told(**known, nesting="contains")[3][:2] == ("containment", "contains")
     hulls.outcome = "penetrating"
     found = SimpleNamespace(relation="penetrating", box_tests=7, triangle_tests=2, edge_tests=None)
-    found.triangle_a, found.triangle_b, found.proven = 3, 4, False
+    found.triangle_a, found.triangle_b, found.proven, found.decided = 3, 4, False, True
     from_hulls = told(hulls=hulls, triangles=found)
     assert from_hulls[0][:2] == ("hull", "meet")
     meet = "7 box tests, 2 triangle tests, triangles 3 and 4 meet, sampled in a degenerate contact"
     assert from_hulls[1] == ("triangles", "penetrating", meet)
     found.edge_tests, found.triangle_a, found.proven = 9, -1, True
     assert told(triangles=found)[0][2] == "9 tests of edges of the outlines"
+    found.decided = False
+    assert told(triangles=found) == [("triangles", "undecided", "too many steps")]
     assert told(box_gap=0.1234567) == [
         ("aabb", "separated", "world boxes apart by at least 0.123457")
     ]
