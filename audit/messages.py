@@ -1,6 +1,7 @@
 """The message of a finding, and that of a report: its verdict, PASS, FAIL or INCOMPLETE, and why.
-Every format prints these, and none composes its own. The command says ERROR instead where an input
-could not be used, as its exit code does.
+JSON, the formats of CI and the last line of a table print these; the rows of a table and CSV have
+the figures alone. The command says ERROR instead where an input could not be used, as its exit code
+does.
 """
 
 from __future__ import annotations
@@ -191,7 +192,7 @@ def _unmeasured(report: Report) -> list[str]:
 def _kinds(worst: Iterable[Finding], report: Report) -> str:
     """Return `6 of 21 pairs overlap, 1 is too close`; `overlap more than allowed` beside overlaps
     that pass."""
-    kinds = Counter("possibly" if _is_unsure(f, report) else kind_of(f) for f in worst)
+    kinds = Counter("possibly" if is_unsure(f, report) else kind_of(f) for f in worst)
     total = f" of {counted(report.summary.pairs.total, 'pair')}"
     said: list[str] = []
     for kind, verbs in _VERBS.items():
@@ -296,15 +297,17 @@ def _hits_only(finding: Finding) -> bool:
 def _overlap(finding: Finding, report: Report) -> str:
     if finding.quality != "estimate":
         return _OVERLAP[finding.at_rest].format(finding.a, finding.b)
-    possibly = "possibly " if _is_unsure(finding, report) else ""
+    possibly = "possibly " if is_unsure(finding, report) else ""
     return f"{finding.a} and {finding.b} {possibly}overlap"
 
 
-def _is_unsure(finding: Finding, report: Report) -> bool:
-    """Return whether it is not proven that the bodies overlap at all."""
+def is_unsure(finding: Finding, report: Report) -> bool:
+    """Return whether an overlap is stated, and none is proven."""
+    if finding.quality != "estimate" or finding.at_rest not in OVERLAPS:
+        return False
     settings = report.settings
-    is_sure = settings.accuracy == "exact" and not settings.allow_open
-    return finding.quality == "estimate" and finding.at_rest in OVERLAPS and not is_sure
+    is_strict = settings.accuracy == "exact" and not settings.allow_open
+    return not is_strict or finding.undecided == "relation"
 
 
 def _figures(finding: Finding, unit: str | None) -> list[str]:

@@ -45,13 +45,13 @@ def named(exact: Relation, within: bool | None, kept: bool | None = True) -> Rel
     """Return what a pair of bodies is called where they are placed. Nothing else decides whether
     that is `touching`; what a motion meets on its way has words of its own (`report.sweep`).
 
-    exact: what it is without a tolerance. within: whether its overlap, or its gap, is proven to be
-    at most the tolerance; None: open. kept: whether its gap keeps the clearance; None: not even the
-    gap is known.
+    exact: what it is without a tolerance. within: whether its overlap, or its gap, is at most the
+    tolerance, or a surface tolerance explains it; None: open. Unless the relation is an estimate,
+    this is proven (`audit/stages/touch_band.py`, `audit/stages/gap.py`). kept: whether its gap is
+    at least the clearance, as far as the figure of the gap tells; None: there is no figure.
 
-    - touching: what it shares, or what lies between, is proven to be within the tolerance; or it
-      touches exactly.
-    - near: it is apart, and the gap is less than the clearance, or may be.
+    - touching: what it shares, or what lies between, is within the tolerance; or it just touches.
+    - near: it is apart, and the gap is less than the clearance, or nothing is known of it.
     - else what it is exactly: an open question never makes an overlap a touch.
     """
     if within:

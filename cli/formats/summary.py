@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, field
 
 from satcheck.audit.acceptance import words_to_accept
-from satcheck.audit.messages import failing
+from satcheck.audit.messages import failing, is_unsure
 from satcheck.audit.words import counted, is_hit, is_unusable, number
 from satcheck.report.report import CROSS_CHECK, OVERLAPS, RELATIONS
 from satcheck.report.verdict import exempt_by
@@ -77,7 +77,9 @@ def _counts(report: Report) -> list[str]:
     accuracy = report.settings.accuracy
     why = "" if accuracy == "exact" else f" (not proven at --accuracy {accuracy})"
     guesses = [f for f in report.findings if f.quality == "estimate"]
-    overlaps = Counter(f.relation for f in guesses if surely_overlaps(f, report))
+    overlaps = Counter(
+        f.relation for f in guesses if f.at_rest in OVERLAPS and not is_unsure(f, report)
+    )
     estimates = Counter(f.relation for f in guesses) - overlaps
     counts = []
     for name in RELATIONS:
@@ -90,13 +92,6 @@ def _counts(report: Report) -> list[str]:
     if count := overlaps.total():
         counts.append(f"{count:,} overlapping in a way that is not proven")
     return counts
-
-
-def surely_overlaps(estimate: Finding, report: Report) -> bool:
-    """Whether only open is how: one body may hold the other."""
-    settings = report.settings
-    is_strict = settings.accuracy == "exact" and not settings.allow_open
-    return is_strict and estimate.at_rest in OVERLAPS and estimate.undecided != "relation"
 
 
 def _hits(report: Report) -> list[str]:

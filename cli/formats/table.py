@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from satcheck.audit.messages import has_no_pair, of_command, verdict_line
+from satcheck.audit.messages import has_no_pair, is_unsure, of_command, verdict_line
 from satcheck.audit.words import (
     about,
     bounds,
@@ -28,7 +28,7 @@ from satcheck.audit.words import (
 )
 from satcheck.cli.formats.details import component_lines, region_lines, support_lines
 from satcheck.cli.formats.remarks import remarks
-from satcheck.cli.formats.summary import config_line, counts_line, next_step, surely_overlaps
+from satcheck.cli.formats.summary import config_line, counts_line, next_step
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
@@ -172,7 +172,7 @@ def columns_of(
 def _relation(finding: Finding, report: Report) -> str:
     if finding.quality != "estimate":
         return finding.relation
-    sure = surely_overlaps(finding, report)
+    sure = finding.at_rest in OVERLAPS and not is_unsure(finding, report)
     return "overlapping" if sure else f"possibly {finding.relation}"
 
 
