@@ -90,9 +90,9 @@ class Group(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        names = self.list_commands(ctx)
         if args[0].startswith("-") or self.get_command(ctx, args[0]) is not None:
             return super().resolve_command(ctx, args)
+        names = self.list_commands(ctx)
         known = meant(args[0], names) or f": it has {', '.join(names)}"
         raise click.UsageError(f"{ctx.command_path} has no command {args[0]}{known}", ctx)
 
@@ -133,7 +133,7 @@ def sections(options: Sequence[click.Option]) -> dict[str, list[click.Option]]:
 def _command_first(words: list[str]) -> list[str]:
     """Return the words of a call with the command in front: options may come before its name. A
     first word that names no command is a path."""
-    if not any(is_command(word) for word in words):
+    if words[0].startswith("-") and not any(map(is_command, words)):
         return [DEFAULT_COMMAND, *words]
     place = 0
     while place < len(words) and words[place].startswith("-") and words[place] not in ("-", "--"):

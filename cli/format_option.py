@@ -86,6 +86,7 @@ def targets_of(
     for path in paths:
         output = None if path == STANDARD_OUTPUT else path
         own = form if output is None or not is_shown else None
+        format_of(path.suffix.lower())  # of another package it is among the formats from here on
         targets.append(Target(_form(own, output, {**formats(kinds), **also}), output))
     return tuple(targets)
 
