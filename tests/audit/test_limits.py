@@ -81,7 +81,7 @@ def test_the_command_takes_limits_in_units_and_proves_them(tmp_path: Path) -> No
     assert verified.code == 0, verified.out
     (tmp_path / "satcheck.toml").write_text('max-thickness = "2.5mm"\n')
     plain = satcheck("a.obj", "b.obj", "--units", "cm", cwd=tmp_path)
-    assert (plain.code, "beyond what rules" in plain.out) == (0, True)
+    assert (plain.code, "beyond what --max-thickness allows" in plain.out) == (0, True)
 
 
 def test_what_has_no_thickness_is_said_to_need_a_limit_of_depth() -> None:

@@ -86,8 +86,8 @@ def start(tmp_path: Path) -> Iterator[Callable[..., Started]]:
         each.kill()
 
 
-def sheets(path: Path, seed: int, count: int = 48) -> None:
-    """Triangles in one plane: the core works for minutes on two such files."""
+def sheets(path: Path, seed: int, count: int = 3000) -> None:
+    """Triangles in one plane: the core works on two such files until their budget is spent."""
     numbers = random.Random(seed)
     with path.open("w") as file:
         for _ in range(3 * count):
