@@ -4,7 +4,7 @@ an intended contact and a fault look the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import product
 from math import ceil, floor, log10
 from typing import TYPE_CHECKING
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 MARGIN = 1.1
 # What is asked of a check that measures every overlap.
 MEASURED = {"depth": True, "thickness": True, "list_pruned": False}
+LOOSER = "a rule goes by names, and would allow bodies of these names more"
 NO_FIGURE = "they overlap, and neither their thickness nor their depth has a proven upper end"
 
 
@@ -145,6 +146,11 @@ def suggestions_of(
             links = robots.links_of(a, b)
             if links and not (isinstance(made, Suggestion) and made.why == "never"):
                 may_meet.add(frozenset(links))
+    for each, other in _looser(suggested, reports):
+        suggested.remove(each)
+        reason = f"{LOOSER} in {other}; satcheck baseline keeps the figures of each asset"
+        unchecked.append(Unchecked(each.a, each.b, False, None, reason, each.asset))
+        undecided[f"{each.asset}: {each.a} and {each.b}"] = reason
     document = SuggestionsReport(
         tool=tool(),
         units=units,
@@ -155,6 +161,48 @@ def suggestions_of(
     )
     ids = {asset: [body.id for body in report.bodies] for asset, report in reports.items()}
     return Suggestions(document, ids, undecided, frozenset(may_meet), tuple(issues))
+
+
+def _looser(
+    suggested: Iterable[Suggestion], reports: Mapping[str | None, Report]
+) -> list[tuple[Suggestion, str]]:
+    """Return the suggestions whose rules would loosen the check of another asset, with that one."""
+    named: dict[frozenset[str], dict[str | None, Suggestion]] = {}
+    for each in suggested:
+        named.setdefault(frozenset((each.a, each.b)), {})[each.asset] = each
+    ids = {asset: {body.id for body in report.bodies} for asset, report in reports.items()}
+    looser = []
+    for names, own in named.items():
+        for each in own.values():
+            there = (asset for asset in reports if asset != each.asset and names <= ids[asset])
+            for asset in there:
+                if _allows_more(each, own.get(asset), reports[asset], names):
+                    looser.append((each, str(asset)))
+                    break
+    if not looser:
+        return []
+    # What one asset refuses is suggested by none: their rules have the same names.
+    refused = {frozenset((each.a, each.b)): asset for each, asset in looser}
+    return [
+        (each, refused[names])
+        for names, own in named.items()
+        if names in refused
+        for each in own.values()
+    ]
+
+
+def _allows_more(
+    rule: Suggestion, own: Suggestion | None, report: Report, names: frozenset[str]
+) -> bool:
+    """Return whether a rule allows a pair of these names in a report more than what is suggested
+    for it. own: that."""
+    if own is not None:
+        pairs = ((rule.max_thickness, own.max_thickness), (rule.max_depth, own.max_depth))
+        return any(a is not b if a is None or b is None else a > b * MARGIN for a, b in pairs)
+    if report.rules or report.settings.clearance is not None:
+        return True
+    found = (each for each in report.findings if {each.a, each.b} == names)
+    return any(each.at_rest in OVERLAPS or each.undecided is not None for each in found)
 
 
 def _fails(finding: Finding) -> bool:

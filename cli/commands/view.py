@@ -123,7 +123,7 @@ def command(
     check is named, and a gallery says so in place of the picture.
 
     The exit code is that of the check, also of a batch that did not finish: that is never a pass.
-    Of a 3-D view alone it is 0, or 3 if a file is missing or has changed.
+    Of a 3-D view alone it is 0, or 3 if a file is missing or has changed, or results are missing.
     """
     inputs = Inputs(tuple(map(str, (*reports, *filter(None, [manifest])))))
     is_opened = form is None and not outputs and folder is None
@@ -171,9 +171,13 @@ class _View(NamedTuple):
         is_page = not self.to.targets and self.drawing.folder is None
         code = exit_codes.CLEAN
         if alone or is_page:
-            code = self._replace(to=replace(self.to, targets=tuple(alone)))._worst(stored, issues)
+            code = self._replace(to=replace(self.to, targets=tuple(alone)))._worst(stored)
         if is_page or not others:
-            return code
+            for issue in issues:
+                talk(f"satcheck: {issue_line(issue)}")
+            if any(issue.severity == "error" for issue in issues):
+                return exit_codes.ERROR
+            return code or (exit_codes.INCOMPLETE if issues else exit_codes.CLEAN)
         to = replace(self.to, targets=others)
         found = (each.asset for each in stored)
         seen = overview(found, issues, top=self.drawing.top)
@@ -181,12 +185,10 @@ class _View(NamedTuple):
         tell_assets(seen, to)
         return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
 
-    def _worst(self, stored: Sequence[Stored] | StoredResults, issues: tuple[Issue, ...]) -> int:
+    def _worst(self, stored: Sequence[Stored] | StoredResults) -> int:
         """Show the worst of many assets; one with a finding, if there is any, as a file that cannot
         be read has nothing to see."""
         if not len(stored):
-            for issue in issues:
-                talk(f"satcheck: {issue_line(issue)}")
             talk("satcheck: error: there is no asset to draw")
             return exit_codes.ERROR
         worst = min((each.asset for each in stored), key=_rank_to_see)

@@ -14,7 +14,7 @@ from xml.sax.saxutils import quoteattr
 from msgspec import Struct
 
 from satcheck.audit.bodies import SUGGESTED
-from satcheck.audit.suggest import MARGIN, NO_FIGURE
+from satcheck.audit.suggest import LOOSER, MARGIN, NO_FIGURE
 from satcheck.audit.words import counted, with_unit
 from satcheck.report.json import escaped
 from satcheck.scene.rules import Selector
@@ -131,7 +131,7 @@ def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
     blocks = [
         f"# {_left_out(pair)}"
         for pair in report.unchecked
-        if pair.adjacent or pair.reason == NO_FIGURE
+        if pair.adjacent or pair.reason == NO_FIGURE or pair.reason.startswith(LOOSER)
     ]
     blocks += ["\n".join(_lines(rule, report)) for rule in rules_of(suggestions, pairs)]
     return "\n".join((head, *(f"{block}\n" for block in blocks)))
@@ -216,7 +216,8 @@ def remark(suggestions: Suggestions, pairs: Sequence[Suggestion], *, never: bool
 def _left_out(pair: Unchecked) -> str:
     """Return a comment of one line, whatever the names hold."""
     joined = "a joint connects them, but " if pair.adjacent else ""
-    why = f"{joined}they could not be checked: {pair.reason}"
+    is_known = pair.reason.startswith(LOOSER)
+    why = pair.reason if is_known else f"{joined}they could not be checked: {pair.reason}"
     text = f"not suggested: {pair.a} and {pair.b}: {why}"
     return "".join(c if c.isprintable() else "?" for c in text)
 

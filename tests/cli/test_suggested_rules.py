@@ -197,20 +197,57 @@ def test_a_leg_that_sinks_deeper_fails(tmp_path: Path) -> None:
 
 
 def test_a_folder_has_one_file_of_rules(tmp_path: Path) -> None:
-    """An asset is a scene of its own; of two with the same names the larger limit counts."""
+    """An asset is a scene of its own; of two with the same names and nearly the same overlap the
+    larger limit counts."""
     (tmp_path / "kit").mkdir()
-    table(tmp_path / "kit", 0.002)
+    table(tmp_path / "kit", 0.0028)
     table(tmp_path / "kit", 0.003, "stool.glb")
     ran = satcheck("suggest", "kit", "-o", "rules.toml", cwd=tmp_path)
     assert ran.code == 0, ran.err
     rules = tomllib.loads((tmp_path / "rules.toml").read_text())["rules"]
-    assert [(rule["a"], rule["b"]) for rule in rules] == [("top", f"leg.00{k}") for k in range(4)]
+    assert [(rule["a"], rule["b"]) for rule in rules] == [("top", "leg.*")]
     assert all(0.0033 <= rule["max_depth"] <= 0.00331 for rule in rules)
     assert "in kit/stool.glb, kit/table.glb" in rules[0]["reason"]
     checked = ("batch", "kit", "--rules", "rules.toml")
     assert satcheck(*checked, cwd=tmp_path).code == 0
     table(tmp_path / "kit", 0.091)
     assert satcheck(*checked, cwd=tmp_path).code == 1
+
+
+def box_on_plate(height: float, rule: str = "") -> str:
+    """Boxes of edge 10; the upper one stands so high above the lower one's top."""
+    shape = 'shape = {type = "box", size = [10, 10, 10]}'
+    bodies = f"""\
+schema = "satcheck.scene/1"
+units = "mm"
+bodies = [
+    {{id = "plate", {shape}}},
+    {{id = "bolt1", {shape}, position = [0, 0, {10 + height}]}},
+]
+"""
+    return bodies + (f'[[rules]]\na = "bolt1"\nb = "plate"\n{rule}\n' if rule else "")
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        box_on_plate(-4.0),
+        box_on_plate(1.0, 'clearance = "2mm"'),
+        box_on_plate(-0.05, 'max_depth = "0.1mm"'),
+        box_on_plate(-1.0, 'severity = "warning"'),
+    ],
+)
+def test_a_rule_that_would_loosen_another_asset_is_not_suggested(
+    other: str, tmp_path: Path
+) -> None:
+    (tmp_path / "kit").mkdir()
+    (tmp_path / "kit" / "p.toml").write_text(box_on_plate(-5.0))
+    (tmp_path / "kit" / "q.toml").write_text(other)
+    ran = satcheck("suggest", "kit", cwd=tmp_path)
+    assert ran.code == 3
+    assert "rules" not in tomllib.loads(ran.out)
+    assert "not suggested: plate and bolt1: a rule goes by names" in ran.out
+    assert "satcheck baseline keeps the figures of each asset" in ran.err
 
 
 def test_names_that_another_asset_has_are_counted(tmp_path: Path) -> None:

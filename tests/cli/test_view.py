@@ -190,6 +190,7 @@ def test_a_stored_report_of_a_batch_that_did_not_finish_passes_no_more_than_its_
         options = ["--manifest", "all.txt"]
     else:
         (folder / "all.jsonl").write_text("")
+    assert satcheck("view", results, *options, cwd=folder).code == (2 if missing == "all" else 3)
     assert satcheck("view", results, *options, "-o", "all.json", cwd=folder).code == 3
     said = {
         "table": "INCOMPLETE: ",

@@ -43,6 +43,7 @@ bool same_geometry(const Surface& a, const Surface& b) {
   if (a.mesh.vertices.size() != b.mesh.vertices.size() || a.solid != b.solid) return false;
   const Aabb &box_a = a.bvh.nodes[0].box, &box_b = b.bvh.nodes[0].box;
   if (!(box_a.min == box_b.min) || !(box_a.max == box_b.max)) return false;
+  if (a.mesh.triangles == b.mesh.triangles && a.mesh.vertices == b.mesh.vertices) return true;
   return canonical_triangles(a.mesh, a.solid) == canonical_triangles(b.mesh, b.solid);
 }
 
