@@ -128,12 +128,14 @@ def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
     unit = unit_of(report.units)
     head = '# Give this file beside the scene, or after --rules.\nschema = "satcheck.scene/1"\n'
     head += (f'units = "{unit}"\n' if unit else "") + "bodies = []\n"
+    rules = rules_of(suggestions, pairs)
+    head += "" if rules else "rules = []\n"
     blocks = [
         f"# {_left_out(pair)}"
         for pair in report.unchecked
         if pair.adjacent or pair.reason == NO_FIGURE or pair.reason.startswith(LOOSER)
     ]
-    blocks += ["\n".join(_lines(rule, report)) for rule in rules_of(suggestions, pairs)]
+    blocks += ["\n".join(_lines(rule, report)) for rule in rules]
     return "\n".join((head, *(f"{block}\n" for block in blocks)))
 
 

@@ -245,7 +245,9 @@ def test_a_rule_that_would_loosen_another_asset_is_not_suggested(
     (tmp_path / "kit" / "q.toml").write_text(other)
     ran = satcheck("suggest", "kit", cwd=tmp_path)
     assert ran.code == 3
-    assert "rules" not in tomllib.loads(ran.out)
+    assert tomllib.loads(ran.out)["rules"] == []
+    (tmp_path / "rules.toml").write_text(ran.out)
+    assert satcheck("batch", "kit", "--rules", "rules.toml", cwd=tmp_path).code == 1
     assert "not suggested: plate and bolt1: a rule goes by names" in ran.out
     assert "satcheck baseline keeps the figures of each asset" in ran.err
 
