@@ -146,11 +146,13 @@ def suggestions_of(
             links = robots.links_of(a, b)
             if links and not (isinstance(made, Suggestion) and made.why == "never"):
                 may_meet.add(frozenset(links))
-    for each, other in _looser(suggested, reports):
-        suggested.remove(each)
-        reason = f"{LOOSER} in {other}; satcheck baseline keeps the figures of each asset"
-        unchecked.append(Unchecked(each.a, each.b, False, None, reason, each.asset))
-        undecided[f"{each.asset}: {each.a} and {each.b}"] = reason
+    looser = _looser(suggested, reports)
+    for each in suggested:
+        if other := looser.get(frozenset((each.a, each.b))):
+            reason = f"{LOOSER} in {other}; satcheck baseline keeps the figures of each asset"
+            unchecked.append(Unchecked(each.a, each.b, False, None, reason, each.asset))
+            undecided[f"{each.asset}: {each.a} and {each.b}"] = reason
+    suggested = [each for each in suggested if frozenset((each.a, each.b)) not in looser]
     document = SuggestionsReport(
         tool=tool(),
         units=units,
@@ -165,30 +167,23 @@ def suggestions_of(
 
 def _looser(
     suggested: Iterable[Suggestion], reports: Mapping[str | None, Report]
-) -> list[tuple[Suggestion, str]]:
-    """Return the suggestions whose rules would loosen the check of another asset, with that one."""
+) -> dict[frozenset[str], str]:
+    """Return the names whose rule would loosen the check of another asset, with that asset."""
     named: dict[frozenset[str], dict[str | None, Suggestion]] = {}
     for each in suggested:
         named.setdefault(frozenset((each.a, each.b)), {})[each.asset] = each
     ids = {asset: {body.id for body in report.bodies} for asset, report in reports.items()}
-    looser = []
-    for names, own in named.items():
-        for each in own.values():
-            there = (asset for asset in reports if asset != each.asset and names <= ids[asset])
-            for asset in there:
-                if _allows_more(each, own.get(asset), reports[asset], names):
-                    looser.append((each, str(asset)))
-                    break
-    if not looser:
-        return []
-    # What one asset refuses is suggested by none: their rules have the same names.
-    refused = {frozenset((each.a, each.b)): asset for each, asset in looser}
-    return [
-        (each, refused[names])
+    return {
+        names: str(asset)
         for names, own in named.items()
-        if names in refused
-        for each in own.values()
-    ]
+        for asset in reports
+        if names <= ids[asset]
+        and any(
+            _allows_more(rule, own.get(asset), reports[asset], names)
+            for rule in own.values()
+            if rule.asset != asset
+        )
+    }
 
 
 def _allows_more(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import webbrowser
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
@@ -15,7 +16,7 @@ import click
 from msgspec.structs import replace
 
 from satcheck.audit.batch.manifest import read_manifest
-from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults
+from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults, least_of
 from satcheck.audit.words import is_listed
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
@@ -175,9 +176,8 @@ class _View(NamedTuple):
         if is_page or not others:
             for issue in issues:
                 talk(f"satcheck: {issue_line(issue)}")
-            if any(issue.severity == "error" for issue in issues):
-                return exit_codes.ERROR
-            return code or (exit_codes.INCOMPLETE if issues else exit_codes.CLEAN)
+            of_issues = exit_codes.for_counts(Counter([least_of(issues)]), exit_zero=False)
+            return min(filter(None, (code, of_issues)), default=exit_codes.CLEAN)
         to = replace(self.to, targets=others)
         found = (each.asset for each in stored)
         seen = overview(found, issues, top=self.drawing.top)

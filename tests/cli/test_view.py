@@ -208,3 +208,14 @@ def test_where_there_is_no_asset_nothing_is_drawn(folder: Path) -> None:
     (folder / "all.jsonl").write_text("")
     ran = satcheck("view", "all.jsonl", "-o", "worst.png", cwd=folder)
     assert (ran.code, "no asset" in ran.err) == (2, True)
+
+
+def test_a_warning_that_blocks_no_pass_leaves_a_page_as_it_is(folder: Path) -> None:
+    (folder / "unused.toml").write_text(
+        'schema = "satcheck.scene/1"\nbodies = []\n'
+        '[[rules]]\na = "nobody"\nb = "none"\nclearance = 1\n'
+    )
+    rules = ("--rules", "unused.toml")
+    satcheck("batch", "box.obj", "l_bracket.obj", *rules, "-o", "all.json", cwd=folder)
+    ran = satcheck("view", "all.json", cwd=folder)
+    assert (ran.code, "unused-rule" in ran.err) == (0, True)
