@@ -12,9 +12,25 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-IMPORTED = ("numpy", "rich.table", "satcheck.audit.resolve.resolve", "satcheck.scene.robot")
+COMMANDS = ("batch", "check", "suggest", "verify", "view")
+# What they import when they run: most calls of the tests need it.
+IMPORTED = (
+    *(f"satcheck.cli.commands.{name}" for name in COMMANDS),
+    *(
+        "importlib.metadata",
+        "numpy",
+        "rich._emoji_codes",
+        "rich.console",
+        "rich.table",
+        "tomllib._parser",
+    ),
+    *(f"satcheck.cli.{name}" for name in ("config", "entry", "formats.table", "interrupts")),
+    *(f"satcheck.scene.{name}" for name in ("files.native_formats", "robot", "scene_file.reading")),
+    *("satcheck.audit.batch.local", "satcheck.audit.batch.stored", "satcheck.audit.motion.movers"),
+    *("satcheck.audit.resolve.resolve", "satcheck.verify.document"),
+)
 CONTEXT = multiprocessing.get_context("forkserver")
-CONTEXT.set_forkserver_preload([__name__, "satcheck.cli.commands.check", *IMPORTED])
+CONTEXT.set_forkserver_preload([__name__, *IMPORTED])
 
 
 def run_forked(
