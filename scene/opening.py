@@ -320,7 +320,7 @@ class Context:
         if not self.permits(place):
             raise self.refusal(what)
         if not is_file(place):
-            raise Refused("missing-resource", f"{what} is missing")
+            raise no_file(place, f"{what} ") or Refused("missing-resource", f"{what} is missing")
         return place
 
     @contextmanager
@@ -399,6 +399,7 @@ _ENDS = (b"\n", b"\r", b"}", b">")  # of a line, JSON, XML
 
 # Opening one of these may block, or reading it may never end.
 _SPECIAL = (
+    (stat.S_ISDIR, "a directory"),
     (stat.S_ISFIFO, "a pipe"),
     (stat.S_ISSOCK, "a socket"),
     (stat.S_ISCHR, "a device"),
@@ -460,12 +461,22 @@ def size_of(location: StrPath) -> int:
         raise _unreadable(error) from None
     except ValueError as error:  # a path with a NUL character
         raise Refused("unreadable-file", f"cannot be read: {error}") from None
-    if stat.S_ISDIR(status.st_mode):
-        raise Refused("not-a-file", "is a directory, not a file")
-    if not stat.S_ISREG(status.st_mode):
-        kind = next((name for test, name in _SPECIAL if test(status.st_mode)), "a special file")
-        raise Refused("not-a-file", f"is {kind}, not a file: not read")
+    if not stat.S_ISREG(status.st_mode) and (error := no_file(location)):
+        raise error
     return status.st_size
+
+
+def no_file(location: StrPath, what: str = "") -> Refused | None:
+    """Return the error for a place with something else than a file; None: it has a file, or
+    nothing. what: words for the place, with a space behind."""
+    try:
+        mode = os.stat(location).st_mode  # noqa: PTH116
+    except (OSError, ValueError):
+        return None
+    if stat.S_ISREG(mode):
+        return None
+    kind = next((name for test, name in _SPECIAL if test(mode)), "a special file")
+    return Refused("not-a-file", f"{what}is {kind}, not a file")
 
 
 def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
