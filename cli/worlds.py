@@ -11,7 +11,7 @@ from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import Any
 
 import click
 from msgspec.structs import asdict
@@ -42,7 +42,7 @@ from satcheck.cli.option import names_of_lengths
 from satcheck.cli.output import Document, cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
-from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
+from satcheck.cli.worst_findings import Drawing, Illustrated, with_pictures, worst_findings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import Issue
@@ -57,16 +57,6 @@ _MOST_THREADS = 8
 
 
 STANDARD_INPUT = "-"
-
-
-class Drawing(NamedTuple):
-    """How a gallery shows its worst findings. root: where the paths in the reports start. folder:
-    of a PNG of each. top: how many."""
-
-    root: Path = Path()
-    folder: Path | None = None
-    allow_outside: bool = False
-    top: int = 100
 
 
 def check_worlds(
@@ -119,7 +109,11 @@ def check_worlds(
         with StoredResults([Path(path)]) as stored:
             found = (each.asset for each in stored)
             seen = overview(found, issues, top=to.top, compares=compares and not left)
-            drawing = Drawing(allow_outside=inputs.allow_outside, top=to.top or Drawing().top)
+            drawing = Drawing(
+                allow_outside=inputs.allow_outside,
+                top=to.top or Drawing().top,
+                undrawn="interrupted" if left else "",  # each would take as long as a check
+            )
             deliver_assets(document, seen, stored, to, drawing)
             if to.quiet or Target("table", None) not in to.targets:
                 _tell_errors(stored)
@@ -240,9 +234,7 @@ def deliver_assets(
     illustrated: Iterator[Illustrated] = iter(())
     if drawing.folder is not None or "html" in to.forms:
         worst = worst_findings(stored, drawing.top)
-        illustrated = with_pictures(
-            worst, drawing.folder, drawing.root, allow_outside=drawing.allow_outside
-        )
+        illustrated = with_pictures(worst, drawing)
     for form, output in ((target.form, target.output) for target in to.targets):
         # Where no asset changed, stderr says so.
         if output is None and (to.quiet or (form == "table" and not (len(stored) or seen.issues))):

@@ -171,6 +171,20 @@ def test_a_report_of_assets_that_are_done_is_no_pass(
     assert [issue["code"] for issue in document["issues"]] == ["interrupted"]
 
 
+def test_a_gallery_of_what_is_done_waits_for_no_picture(
+    start: Callable[..., Started], tmp_path: Path
+) -> None:
+    boxes(tmp_path, "hang.obj")
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path / "a.glb")
+    run = start("batch", "a.glb", "hang.obj", "-o", "all.html", "-j", "1")
+    run.wait_for_answers()
+    code, _, err = run.interrupted()
+    assert (code, "interrupted: 1 of 2 assets was not checked" in err) == (130, True)
+    page = (tmp_path / "all.html").read_text()
+    assert "No picture: interrupted" in page
+    assert "<img" not in page
+
+
 def test_without_an_asset_that_is_done_there_is_no_report(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
