@@ -207,7 +207,7 @@ top = click.option(
     help="List only the N worst in a table. The summary and the exit code count all.",
 )
 exit_zero = click.option(
-    "--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail; with 3 if others are open."
+    "--exit-zero", is_flag=True, help="Exit as if no pair failed: with 0, or 3 if pairs are open."
 )
 root = click.option(
     "--root",

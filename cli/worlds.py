@@ -99,11 +99,14 @@ def check_worlds(
         raise cannot_write("a temporary file", error.strerror) from None
     with temporary as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
-        tally = _run(worlds, terms, limits, check, path, resume=resume, stays=results is not None)
+        stays, forgives = results is not None, to.exit_zero and not to.targets
+        tally, code = _run(
+            worlds, terms, limits, check, path, resume=resume, stays=stays, forgives=forgives
+        )
         if results is not None and not to.quiet:
             talk(_summary(tally, results, is_alone=not to.targets))
         if results is not None and not to.targets:
-            return exit_codes.for_counts(tally.verdicts, exit_zero=to.exit_zero)
+            return code
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
         with StoredResults([Path(path)]) as stored:
@@ -122,7 +125,7 @@ def check_worlds(
     if left:
         talk(f"satcheck: {issues[0].message}")
         return exit_codes.INTERRUPTED
-    return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
+    return seen.exit_code(exit_zero=to.exit_zero)
 
 
 def _run(
@@ -134,9 +137,11 @@ def _run(
     *,
     resume: bool,
     stays: bool,
-) -> Tally:
-    """Check the worlds into the file of results. stays: after this call. Of a file that does not,
-    Ctrl-C keeps what is done."""
+    forgives: bool,
+) -> tuple[Tally, int]:
+    """Check the worlds into the file of results. Return how many have which verdict, and the exit
+    code. stays: after this call. Of a file that does not, Ctrl-C keeps what is done. forgives: the
+    exit code is as if nothing failed."""
     local = local_results(output, PART) if is_url(output) else nullcontext(Path(output))
     with local as path, ResultsFile(path) as results, Bar("assets") as bar:
         if not resume and (existing := results.existing()) is not None:
@@ -163,7 +168,11 @@ def _run(
                 talk(f"satcheck: {_recorded(tally, place)}")
                 raise
             results.finish()
-    return tally
+        code = exit_codes.for_counts(tally.verdicts)
+        if forgives and code == exit_codes.FINDINGS:
+            with StoredResults([path]) as stored:
+                code = overview(each.asset for each in stored).exit_code(exit_zero=True)
+    return tally, code
 
 
 def _recorded(tally: Tally, place: str) -> str:

@@ -176,14 +176,14 @@ class _View(NamedTuple):
         if is_page or not others:
             for issue in issues:
                 talk(f"satcheck: {issue_line(issue)}")
-            of_issues = exit_codes.for_counts(Counter([least_of(issues)]), exit_zero=False)
+            of_issues = exit_codes.for_counts(Counter([least_of(issues)]))
             return min(filter(None, (code, of_issues)), default=exit_codes.CLEAN)
         to = replace(self.to, targets=others)
         found = (each.asset for each in stored)
         seen = overview(found, issues, top=self.drawing.top)
         deliver_assets(self.document, seen, stored, to, self.drawing, only_shown=to.top is not None)
         tell_assets(seen, to)
-        return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
+        return seen.exit_code(exit_zero=to.exit_zero)
 
     def _worst(self, stored: Sequence[Stored] | StoredResults) -> int:
         """Show the worst of many assets; one with a finding, if there is any, as a file that cannot
