@@ -54,7 +54,8 @@ from satcheck.scene.words import listed
 _LIMITS = Limits()
 # Of one asset. Each needs address space, which the limit of a process counts.
 _MOST_THREADS = 8
-
+# What to do where a temporary file of results finds no place.
+_ELSEWHERE = "name another folder in TMPDIR, or a file for the results, -o results.jsonl"
 
 STANDARD_INPUT = "-"
 
@@ -96,13 +97,18 @@ def check_worlds(
     try:
         temporary = TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
     except OSError as error:
-        raise cannot_write("a temporary file", error.strerror) from None
+        raise cannot_write("a temporary file", f"{error.strerror}: {_ELSEWHERE}") from None
     with temporary as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
         stays, forgives = results is not None, to.exit_zero and not to.targets
-        tally, code = _run(
-            worlds, terms, limits, check, path, resume=resume, stays=stays, forgives=forgives
-        )
+        try:
+            tally, code = _run(
+                worlds, terms, limits, check, path, resume=resume, stays=stays, forgives=forgives
+            )
+        except SatcheckError as error:
+            if stays or error.code != "cannot-write":
+                raise
+            raise click.ClickException(f"{error}: {_ELSEWHERE} [{error.code}]") from None
         if results is not None and not to.quiet:
             talk(_summary(tally, results, is_alone=not to.targets))
         if results is not None and not to.targets:

@@ -458,6 +458,27 @@ def test_without_a_place_for_results_the_run_says_so(assets: Path) -> None:
     assert b"error: a temporary file: cannot write: No such file" in ran.stderr
 
 
+@on_posix
+def test_a_full_place_for_results_says_what_to_do(assets: Path) -> None:
+    """A limit of the size of files stands for it, as in test_batch_ends."""
+    import resource
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (500, resource.RLIM_INFINITY))
+
+    ran = subprocess.run(
+        command("batch", "."),
+        cwd=assets,
+        env=environment({"PYTHONDONTWRITEBYTECODE": "1"}),
+        preexec_fn=limit,
+        capture_output=True,
+        check=False,
+    )
+    assert (ran.returncode, ran.stdout) == (2, b"")
+    assert b"results.jsonl: cannot be written" in ran.stderr
+    assert b"name another folder in TMPDIR, or a file for the results" in ran.stderr
+
+
 def test_a_folder_of_accepted_files_is_no_asset(tmp_path: Path) -> None:
     shutil.copy(SAMPLES / "rack.3mf", tmp_path)
     for name in ("chair.fbx", "table.blend"):
