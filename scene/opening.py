@@ -165,14 +165,11 @@ _status = os.stat
 
 class FilesRead:
     """The files that a check has read or looked for, in that order. `folder/` stands for the names
-    of the folders in it.
-
-    digests: the SHA-256, hex, of the bytes of those of which it was made as they were read.
-    """
+    of the folders in it."""
 
     def __init__(self) -> None:
         self._signatures: dict[str, Signature] = {}
-        self.digests: dict[str, str] = {}
+        self._digests: dict[str, str] = {}
         self._lost = False
         self._began_ns = time.time_ns()
 
@@ -186,6 +183,13 @@ class FilesRead:
     def add(self, name: str) -> None:
         if name not in self._signatures:
             self._signatures[name] = signature(name)
+
+    def add_digest(self, name: str, digest: str) -> None:
+        self._digests[name] = digest
+
+    def digest(self, name: str) -> str | None:
+        """Return the SHA-256, hex, of the bytes; None: it was not made as they were read."""
+        return self._digests.get(name)
 
     def lose(self) -> None:
         self._lost = True
@@ -219,7 +223,7 @@ def note(location: str | Path) -> None:
 
 def _note_digest(location: StrPath, digest: str) -> None:
     for listener in _listening:
-        listener.digests[str(location)] = digest
+        listener.add_digest(str(location), digest)
 
 
 def note_folders_in(folder: Path) -> None:
