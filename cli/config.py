@@ -87,6 +87,10 @@ def _as_typed(file: ConfigFile, key: str, option: click.Option) -> Any:
             raise file.refused(key, "true or false expected")
         is_inverted = option.flag_value is False  # --no-timings
         return (False if raw else None) if is_inverted else raw
+    if option.nargs > 1:
+        if isinstance(raw, list) and all(isinstance(each, list) for each in raw):
+            return [tuple(map(str, each)) for each in raw]
+        raise file.refused(key, 'lists in a list expected, as in [["X", "Y"]]')
     texts = raw if option.multiple and isinstance(raw, list) else [raw]
     if any(isinstance(text, bool | list | dict) for text in texts):
         raise file.refused(key, "a text or a number expected")
@@ -146,7 +150,7 @@ def stated_config(ctx: click.Context) -> StatedConfig | None:
     from satcheck.report.settings import StatedConfig
 
     taken = {
-        key: tuple(map(str, raw)) if isinstance(raw := file.values[key], list) else raw
+        key: tuple(map(_text, raw)) if isinstance(raw := file.values[key], list) else raw
         for key, option in configurable(ctx.command).items()
         if key in file.values and is_from_config(ctx, option)
     }
@@ -154,6 +158,10 @@ def stated_config(ctx: click.Context) -> StatedConfig | None:
     if deciding and file.found:
         talk(f"satcheck: {file.path} sets {', '.join(deciding)}")
     return StatedConfig(file.path, taken) if taken else None
+
+
+def _text(value: Any) -> str:
+    return " ".join(map(str, value)) if isinstance(value, list) else str(value)
 
 
 def is_from_config(ctx: click.Context, option: click.Parameter) -> bool:

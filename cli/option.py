@@ -50,11 +50,12 @@ def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
 
 
 def names_of_lengths(options: Mapping[str, Any]) -> dict[str, str]:
-    """What the user wrote for each length: `--clearance`, or `satcheck.toml:1: clearance`."""
-    return {name: _origin(name) for name, value in options.items() if isinstance(value, Length)}
+    """What the user wrote for each length."""
+    return {name: origin_of(name) for name, value in options.items() if isinstance(value, Length)}
 
 
-def _origin(name: str) -> str:
+def origin_of(name: str) -> str:
+    """Return what the user wrote: `--clearance`, or `satcheck.toml:1: clearance`."""
     from satcheck.cli.config import origin
 
     ctx = click.get_current_context(silent=True)
