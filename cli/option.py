@@ -62,10 +62,6 @@ def origin_of(name: str) -> str:
     return (ctx and origin(ctx, name)) or f"--{name.replace('_', '-')}"
 
 
-def _file_or_nothing(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
-    return None if path == _STANDARD_OUTPUT else path
-
-
 def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[CompletionItem]:
     """Files, and before the first of them the names of the commands."""
     files = [CompletionItem(start, type="file")]
@@ -189,7 +185,7 @@ output = click.option(
     "--output",
     type=_FILE,
     metavar="FILE",
-    callback=_file_or_nothing,
+    callback=lambda _, __, path: None if path == _STANDARD_OUTPUT else path,
     help="Write the report to FILE; - is standard output.",
 )
 

@@ -26,7 +26,6 @@ from satcheck.scene.planar.outline import shape_from
 if TYPE_CHECKING:
     from satcheck.report.bodies import BodyReport
     from satcheck.report.motions import StatedMotion
-    from satcheck.report.report import Report
 
 CHANGED, GONE = "changed-file", "not-drawn"
 

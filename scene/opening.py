@@ -465,8 +465,8 @@ def size_of(location: StrPath) -> int:
         raise _unreadable(error) from None
     except ValueError as error:  # a path with a NUL character
         raise Refused("unreadable-file", f"cannot be read: {error}") from None
-    if not stat.S_ISREG(status.st_mode) and (error := no_file(location)):
-        raise error
+    if not stat.S_ISREG(status.st_mode) and (special := no_file(location)):
+        raise special
     return status.st_size
 
 

@@ -78,8 +78,8 @@ def _property(option: click.Option) -> dict[str, Any]:
     if option.is_flag:
         return {"type": "boolean", **described}
     if option.nargs > 1:
-        several = {"type": "array", "items": {"type": "string"}}
-        several |= {"minItems": option.nargs, "maxItems": option.nargs}
+        size = {"minItems": option.nargs, "maxItems": option.nargs}
+        several = {"type": "array", "items": {"type": "string"}, **size}
         return {"type": "array", "items": several, **described}
     if option.multiple:
         texts = {"type": "array", "items": {"type": "string"}}

@@ -33,7 +33,8 @@ from satcheck.cli.rendering import (
     rendered,
 )
 from satcheck.cli.stated_scene import read_stored, stated_scene
-from satcheck.cli.worlds import Drawing, deliver_assets, tell_assets
+from satcheck.cli.worlds import deliver_assets, tell_assets
+from satcheck.cli.worst_findings import Drawing
 from satcheck.report.assets import Asset, AssetsReport
 from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SamplesReport
@@ -254,11 +255,6 @@ def _show(content: str, document: Document) -> None:
     path = Path(mkdtemp(prefix="satcheck-")) / "report.html"
     write_file(path, content)
     document.write(f"{path}\n")
-    if _has_display():
+    displays = map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY"))
+    if sys.platform in ("win32", "darwin") or any(displays):
         webbrowser.open(path.as_uri())
-
-
-def _has_display() -> bool:
-    return sys.platform in ("win32", "darwin") or any(
-        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
-    )

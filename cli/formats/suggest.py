@@ -209,8 +209,8 @@ def remark(suggestions: Suggestions, pairs: Sequence[Suggestion], *, never: bool
         pairs_left = counted(left_out, "pair")
         said += f" Not suggested, as not checked: {pairs_left} with a joint between the links."
     looser = Counter(_left_out(pair) for pair in report.unchecked if pair.reason.startswith(LOOSER))
-    for left, count in looser.items():
-        said += f"\nNot suggested: {left} ({counted(count, 'asset')})"
+    for text, count in looser.items():
+        said += f"\nNot suggested: {text} ({counted(count, 'asset')})"
     undecided = [each for each in suggestions.undecided.items() if not each[1].startswith(LOOSER)]
     for pair, reason in undecided[:_NAMED]:
         said += f"\nNot decided: {pair}: {reason.removeprefix('undecided: ')}"
