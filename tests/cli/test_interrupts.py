@@ -231,13 +231,13 @@ def test_a_second_one_ends_what_is_still_being_written(
 def test_where_it_is_ignored_it_stays_ignored(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
-    """As in a background job of a shell. The child of this command is stopped after a second."""
+    """As in a background job of a shell. The child of this command is stopped after seconds."""
     boxes(tmp_path, "a.obj", "hang.obj")
 
     def ignore() -> None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
-    options = ("--limit", "scene-seconds=1", "-j", "1")
+    options = ("--limit", "scene-seconds=5", "-j", "1")
     run = start("batch", "a.obj", "hang.obj", *options, preexec_fn=ignore)
     assert until(run.begun.exists)
     code, out, err = run.interrupted()
