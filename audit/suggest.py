@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 MARGIN = 1.1
 # What is asked of a check that measures every overlap.
 MEASURED = {"depth": True, "thickness": True, "list_pruned": False}
-LOOSER = "a rule goes by names, and would allow bodies of these names more"
+LOOSER = "a rule goes by names: it would let bodies of these names overlap more"
 NO_FIGURE = "they overlap, and neither their thickness nor their depth has a proven upper end"
 
 

@@ -47,7 +47,9 @@ class Command(click.Command):
         super().__init__(*args, **more)
         self.daily = daily.split()
         if daily:
-            self.params.append(_help_all())
+            told = "Show all options, by theme, and exit."
+            how: dict[str, Any] = {"is_flag": True, "is_eager": True, "expose_value": False}
+            self.params.append(click.Option(["--help-all"], callback=_show_all, help=told, **how))
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         options = [p for p in self.get_params(ctx) if isinstance(p, click.Option) and not p.hidden]
@@ -63,17 +65,6 @@ class Command(click.Command):
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         return _written(super().get_help_option(ctx))
-
-
-def _help_all() -> click.Option:
-    return click.Option(
-        ["--help-all"],
-        is_flag=True,
-        is_eager=True,
-        expose_value=False,
-        callback=_show_all,
-        help="Show all options, by theme, and exit.",
-    )
 
 
 def _show_all(ctx: click.Context, option: click.Parameter, wanted: bool) -> None:

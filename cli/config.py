@@ -60,7 +60,7 @@ class ConfigFile(Struct, frozen=True):
 def take_config(ctx: click.Context, given: str | None) -> None:
     """Make the values of the config file defaults of this call. given: the file; None: the nearest
     one, if there is any. Raises SatcheckError: `bad-config`."""
-    file = _found() if given is None else read_config(Path(given))
+    file = nearest_config() if given is None else read_config(Path(given))
     if file is None:
         return
     options = configurable(ctx.command)
@@ -87,6 +87,10 @@ def _as_typed(file: ConfigFile, key: str, option: click.Option) -> Any:
             raise file.refused(key, "true or false expected")
         is_inverted = option.flag_value is False  # --no-timings
         return (False if raw else None) if is_inverted else raw
+    if option.nargs > 1:
+        if isinstance(raw, list) and all(isinstance(each, list) for each in raw):
+            return [tuple(map(str, each)) for each in raw]
+        raise file.refused(key, 'lists in a list expected, as in [["X", "Y"]]')
     texts = raw if option.multiple and isinstance(raw, list) else [raw]
     if any(isinstance(text, bool | list | dict) for text in texts):
         raise file.refused(key, "a text or a number expected")
@@ -146,9 +150,9 @@ def stated_config(ctx: click.Context) -> StatedConfig | None:
     from satcheck.report.settings import StatedConfig
 
     taken = {
-        key: tuple(map(str, raw)) if isinstance(raw := file.values[key], list) else raw
+        key: tuple(map(_text, raw)) if isinstance(raw := file.values[key], list) else raw
         for key, option in configurable(ctx.command).items()
-        if key in file.values and is_from_config(ctx, option)
+        if place_of(ctx, key, option)
     }
     deciding = [key for key in _DECIDING if key in taken]
     if deciding and file.found:
@@ -156,17 +160,21 @@ def stated_config(ctx: click.Context) -> StatedConfig | None:
     return StatedConfig(file.path, taken) if taken else None
 
 
-def is_from_config(ctx: click.Context, option: click.Parameter) -> bool:
-    return ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
+def _text(value: Any) -> str:
+    return " ".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def place_of(ctx: click.Context, key: str, option: click.Parameter) -> str | None:
+    """Return `satcheck.toml:3`; None: the option is not from the config file."""
+    file, source = config_of(ctx), ctx.get_parameter_source(option.name or "")
+    return file.where(key) if file and source is ParameterSource.DEFAULT_MAP else None
 
 
 def origin(ctx: click.Context, name: str) -> str | None:
-    """Return `satcheck.toml:3: clearance`; None: the option is not from the config file."""
-    file = config_of(ctx)
-    for key, option in configurable(ctx.command).items():
-        if file is not None and option.name == name and is_from_config(ctx, option):
-            return f"{file.where(key)}: {key}"
-    return None
+    """Return `satcheck.toml:3: clearance`; None: as above."""
+    keys = {option.name: (key, option) for key, option in configurable(ctx.command).items()}
+    place = name in keys and place_of(ctx, *keys[name])
+    return f"{place}: {keys[name][0]}" if place else None
 
 
 def configurable(command: click.Command) -> dict[str, click.Option]:
@@ -187,17 +195,14 @@ def options_of_commands() -> dict[str, click.Option]:
     return options
 
 
-def _found() -> ConfigFile | None:
+def nearest_config(folder: Path | None = None) -> ConfigFile | None:
+    """Return the nearest satcheck.toml or pyproject.toml with [tool.satcheck], from this folder
+    upward; None: from the current one. In one folder satcheck.toml comes first. Raises
+    SatcheckError: `bad-config`."""
     try:
-        here = Path.cwd()
+        folder = folder or Path.cwd()
     except OSError:  # the folder is gone, and what it was in is unknown
         return None
-    return nearest_config(here)
-
-
-def nearest_config(folder: Path) -> ConfigFile | None:
-    """Return the nearest satcheck.toml or pyproject.toml with [tool.satcheck], from this folder
-    upward. In one folder satcheck.toml comes first. Raises SatcheckError: `bad-config`."""
     for path in (place / name for place in (folder, *folder.parents) for name in (CONFIG, PROJECT)):
         # A link that leads nowhere counts: its options are not passed over, reading it fails.
         if path.is_file() or path.is_symlink():

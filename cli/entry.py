@@ -47,14 +47,7 @@ def _run() -> int:
     except MemoryError:
         return _failed("error: out of memory [out-of-memory]", debug)
     except click.UsageError as error:
-        advice: list[str] = []
-        told = error
-        if isinstance(error, click.NoSuchOption) and (advice := _advice(error)):
-            told = click.NoSuchOption(error.option_name, ctx=error.ctx)  # not what click finds near
-        shown = io.StringIO()
-        told.show(shown)
-        talk("\n".join([shown.getvalue().removesuffix("\n"), *advice]))
-        return exit_codes.ERROR
+        return _misused(error)
     except click.ClickException as error:
         return _failed(f"error: {error.format_message()}", debug)
     except SatcheckError as error:
@@ -65,12 +58,18 @@ def _run() -> int:
     return result if isinstance(result, int) else exit_codes.CLEAN
 
 
-def _advice(error: click.NoSuchOption) -> list[str]:
-    """Return a command to type instead, or nothing."""
-    from satcheck.cli.slips import about_option
+def _misused(error: click.UsageError) -> int:
+    """Say what is wrong, with a command to type instead if there is one."""
+    advice = None
+    if isinstance(error, click.NoSuchOption):
+        from satcheck.cli.slips import about_option
 
-    advice = about_option(error)
-    return [] if advice is None else [str(advice)]
+        if advice := about_option(error):
+            error = click.NoSuchOption(error.option_name, ctx=error.ctx)  # not what click has near
+    shown = io.StringIO()
+    error.show(shown)
+    talk(f"{shown.getvalue()}{advice or ''}".removesuffix("\n"))
+    return exit_codes.ERROR
 
 
 def _call() -> object:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from satcheck.report.assets import AssetVerdict
@@ -26,11 +26,11 @@ _BY_VERDICT: dict[AssetVerdict, int] = {
 
 
 def for_report(report: Report | SamplesReport, *, exit_zero: bool) -> int:
-    """Return ERROR when an input could not be used, else by the verdict. exit_zero forgives what
-    fails, and not what is open."""
+    """Return ERROR when an input could not be used, else by the verdict. exit_zero: as if nothing
+    failed."""
     verdict = report.summary.verdict
     if exit_zero and verdict == "fail":
-        verdict = "incomplete" if _has_open(report) else "pass"
+        verdict = without_failures(report)
     return for_verdict(verdict, report.issues)
 
 
@@ -38,18 +38,18 @@ def for_verdict(verdict: Verdict, issues: Iterable[Issue]) -> int:
     return ERROR if any(issue.severity == "error" for issue in issues) else _BY_VERDICT[verdict]
 
 
-def _has_open(report: Report | SamplesReport) -> bool:
+def without_failures(report: Report | SamplesReport) -> Literal["incomplete", "pass"]:
+    """Return the verdict of a report that fails, but for what fails: what is open stays so."""
     from satcheck.audit.messages import left_open
     from satcheck.report.report import Report
 
     if isinstance(report, Report):
-        return bool(left_open(report))
-    return any(pair.undecided for pair in report.pairs)
+        return "incomplete" if left_open(report) else "pass"
+    return "incomplete" if any(pair.undecided for pair in report.pairs) else "pass"
 
 
-def for_counts(verdicts: Counter[AssetVerdict], *, exit_zero: bool) -> int:
-    """By the worst of many verdicts; with exit_zero by the worst that is no finding, as what is not
-    checked never passes."""
+def for_counts(verdicts: Counter[AssetVerdict]) -> int:
+    """By the worst of many verdicts."""
     from satcheck.report.assets import worst_verdict
 
-    return _BY_VERDICT[worst_verdict({**verdicts, "fail": 0} if exit_zero else verdicts)]
+    return _BY_VERDICT[worst_verdict(verdicts)]

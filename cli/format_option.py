@@ -82,12 +82,11 @@ def targets_of(
     is_shown = STANDARD_OUTPUT in paths
     if form is not None and len(paths) > 1 and not is_shown:
         raise click.UsageError("--format is about one document, and several files are named")
-    targets = []
+    known, targets = {**formats(kinds), **also}, []
     for path in paths:
         output = None if path == STANDARD_OUTPUT else path
         own = form if output is None or not is_shown else None
-        format_of(path.suffix.lower())  # of another package it is among the formats from here on
-        targets.append(Target(_form(own, output, {**formats(kinds), **also}), output))
+        targets.append(Target(_form(own, output, known, kinds), output))
     return tuple(targets)
 
 
@@ -102,7 +101,13 @@ def form_of(
     return _form(form, output, known or formats(PLAIN))
 
 
-def _form(form: str | None, output: Path | None, known: Mapping[str, Format]) -> str:
+def _form(
+    form: str | None,
+    output: Path | None,
+    known: Mapping[str, Format],
+    others: tuple[Kind, ...] = (),
+) -> str:
+    """others: the kinds of formats that other packages may register."""
     if form is not None and form not in known:
         raise click.UsageError(f"--format {form}: this command writes {', '.join(known)}")
     ending = "" if output is None else output.suffix.lower()
@@ -110,7 +115,7 @@ def _form(form: str | None, output: Path | None, known: Mapping[str, Format]) ->
         return form or "table"
     own = (each for each in reversed(list(known.values())) if ending in each.endings)
     named = next(own, None) or format_of(ending)
-    if named is None or named.name not in known:
+    if named is None or not (named.name in known or named.kind in others):
         raise click.UsageError(f"{output}: {unknown_ending(known.values())}")
     return named.name
 

@@ -13,7 +13,7 @@ from click.core import ParameterSource
 from msgspec import Struct
 
 from satcheck.audit.words import counted
-from satcheck.cli.option import default_limits
+from satcheck.cli.option import default_limits, origin_of
 from satcheck.cli.output import cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
@@ -159,7 +159,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
             raise _with_view(error, paths) from None
     _refuse_unknown(inputs.between, scene)
     if inputs.units and _is_typed("units") and _is_stated(paths, scene):
-        talk("satcheck: note: --units has no effect: each file states its unit")
+        instead = f'units = "{inputs.units}" of a body in a scene file is instead of it'
+        talk(f"satcheck: note: --units has no effect: each file states its unit; {instead}")
     told = (issue for issue in scene.issues if tell_all or issue.severity == "error")
     for issue in dict.fromkeys(told):
         talk(f"satcheck: {issue_line(issue)}")
@@ -199,7 +200,7 @@ def _refuse_unknown(between: Sequence[tuple[str, str]], scene: Scene) -> None:
             names = sorted({f"{GROUP}{each}" for body in scene.bodies for each in body.groups})
         known = meant(name, names) or f": there are {listed(names) or 'none'}"
         what = "group" if selector.of_groups else "body"
-        raise click.UsageError(f"--between: no {what} is {name}{known}")
+        raise click.UsageError(f"{origin_of('between')}: no {what} is {name}{known}")
 
 
 def _is_stated(paths: Sequence[str], scene: Scene) -> bool:

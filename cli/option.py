@@ -50,19 +50,16 @@ def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
 
 
 def names_of_lengths(options: Mapping[str, Any]) -> dict[str, str]:
-    """What the user wrote for each length: `--clearance`, or `satcheck.toml:1: clearance`."""
-    return {name: _origin(name) for name, value in options.items() if isinstance(value, Length)}
+    """What the user wrote for each length."""
+    return {name: origin_of(name) for name, value in options.items() if isinstance(value, Length)}
 
 
-def _origin(name: str) -> str:
+def origin_of(name: str) -> str:
+    """Return what the user wrote: `--clearance`, or `satcheck.toml:1: clearance`."""
     from satcheck.cli.config import origin
 
     ctx = click.get_current_context(silent=True)
     return (ctx and origin(ctx, name)) or f"--{name.replace('_', '-')}"
-
-
-def _file_or_nothing(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
-    return None if path == _STANDARD_OUTPUT else path
 
 
 def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[CompletionItem]:
@@ -188,7 +185,7 @@ output = click.option(
     "--output",
     type=_FILE,
     metavar="FILE",
-    callback=_file_or_nothing,
+    callback=lambda _, __, path: None if path == _STANDARD_OUTPUT else path,
     help="Write the report to FILE; - is standard output.",
 )
 
@@ -207,7 +204,7 @@ top = click.option(
     help="List only the N worst in a table. The summary and the exit code count all.",
 )
 exit_zero = click.option(
-    "--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail; with 3 if others are open."
+    "--exit-zero", is_flag=True, help="Exit as if no pair failed: with 0, or 3 if pairs are open."
 )
 root = click.option(
     "--root",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -27,7 +26,6 @@ from satcheck.scene.planar.outline import shape_from
 if TYPE_CHECKING:
     from satcheck.report.bodies import BodyReport
     from satcheck.report.motions import StatedMotion
-    from satcheck.report.report import Report
 
 CHANGED, GONE = "changed-file", "not-drawn"
 
@@ -72,7 +70,11 @@ def stated_scene(
         issues.append(Issue(GONE, "warning", None, None, _NO_PATH))
     moving = tuple(_motion(each) for each in motions if not isinstance(each, JointPath))
     scene = Scene(name="", units=report.units, bodies=tuple(bodies), motions=moving)
-    return scene, list(_once(issues))
+    # One issue a cause: bodies of one file share it.
+    first: dict[tuple[str | None, ...], Issue] = {}
+    for issue in issues:
+        first.setdefault((issue.code, issue.file, issue.message), issue)
+    return scene, [*first.values()]
 
 
 def _motion(stated: StatedMotion) -> Motion:
@@ -99,16 +101,6 @@ def _placed(entry: BodyReport | SampledBody, file: MeshFile) -> Body:
 
 def _issue(code: str, entry: BodyReport | SampledBody, message: str) -> Issue:
     return Issue(code, "warning", entry.id, entry.file, message)
-
-
-def _once(issues: Sequence[Issue]) -> Iterator[Issue]:
-    """One issue a cause: bodies of one file share it."""
-    told: set[tuple[str, str | None, str]] = set()
-    for issue in issues:
-        cause = (issue.code, issue.file, issue.message)
-        if cause not in told:
-            told.add(cause)
-            yield issue
 
 
 def read_stored(path: Path) -> Report | AssetsReport | SamplesReport:

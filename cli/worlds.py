@@ -11,7 +11,7 @@ from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import Any
 
 import click
 from msgspec.structs import asdict
@@ -42,7 +42,7 @@ from satcheck.cli.option import names_of_lengths
 from satcheck.cli.output import Document, cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
-from satcheck.cli.worst_findings import Illustrated, with_pictures, worst_findings
+from satcheck.cli.worst_findings import Drawing, Illustrated, with_pictures, worst_findings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import Issue
@@ -54,19 +54,10 @@ from satcheck.scene.words import listed
 _LIMITS = Limits()
 # Of one asset. Each needs address space, which the limit of a process counts.
 _MOST_THREADS = 8
-
+# What to do where a temporary file of results finds no place.
+_ELSEWHERE = "name another folder in TMPDIR, or a file for the results, -o results.jsonl"
 
 STANDARD_INPUT = "-"
-
-
-class Drawing(NamedTuple):
-    """How a gallery shows its worst findings. root: where the paths in the reports start. folder:
-    of a PNG of each. top: how many."""
-
-    root: Path = Path()
-    folder: Path | None = None
-    allow_outside: bool = False
-    top: int = 100
 
 
 def check_worlds(
@@ -106,20 +97,32 @@ def check_worlds(
     try:
         temporary = TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
     except OSError as error:
-        raise cannot_write("a temporary file", error.strerror) from None
+        raise cannot_write("a temporary file", f"{error.strerror}: {_ELSEWHERE}") from None
     with temporary as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
-        tally = _run(worlds, terms, limits, check, path, resume=resume, stays=results is not None)
+        stays, forgives = results is not None, to.exit_zero and not to.targets
+        try:
+            tally, code = _run(
+                worlds, terms, limits, check, path, resume=resume, stays=stays, forgives=forgives
+            )
+        except SatcheckError as error:
+            if stays or error.code != "cannot-write":
+                raise
+            raise click.ClickException(f"{error}: {_ELSEWHERE} [{error.code}]") from None
         if results is not None and not to.quiet:
             talk(_summary(tally, results, is_alone=not to.targets))
         if results is not None and not to.targets:
-            return exit_codes.for_counts(tally.verdicts, exit_zero=to.exit_zero)
+            return code
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
         with StoredResults([Path(path)]) as stored:
             found = (each.asset for each in stored)
             seen = overview(found, issues, top=to.top, compares=compares and not left)
-            drawing = Drawing(allow_outside=inputs.allow_outside, top=to.top or Drawing().top)
+            drawing = Drawing(
+                allow_outside=inputs.allow_outside,
+                top=to.top or Drawing().top,
+                undrawn="interrupted" if left else "",  # each would take as long as a check
+            )
             deliver_assets(document, seen, stored, to, drawing)
             if to.quiet or Target("table", None) not in to.targets:
                 _tell_errors(stored)
@@ -128,7 +131,7 @@ def check_worlds(
     if left:
         talk(f"satcheck: {issues[0].message}")
         return exit_codes.INTERRUPTED
-    return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
+    return seen.exit_code(exit_zero=to.exit_zero)
 
 
 def _run(
@@ -140,9 +143,11 @@ def _run(
     *,
     resume: bool,
     stays: bool,
-) -> Tally:
-    """Check the worlds into the file of results. stays: after this call. Of a file that does not,
-    Ctrl-C keeps what is done."""
+    forgives: bool,
+) -> tuple[Tally, int]:
+    """Check the worlds into the file of results. Return how many have which verdict, and the exit
+    code. stays: after this call. Of a file that does not, Ctrl-C keeps what is done. forgives: the
+    exit code is as if nothing failed."""
     local = local_results(output, PART) if is_url(output) else nullcontext(Path(output))
     with local as path, ResultsFile(path) as results, Bar("assets") as bar:
         if not resume and (existing := results.existing()) is not None:
@@ -169,7 +174,11 @@ def _run(
                 talk(f"satcheck: {_recorded(tally, place)}")
                 raise
             results.finish()
-    return tally
+        code = exit_codes.for_counts(tally.verdicts)
+        if forgives and code == exit_codes.FINDINGS:
+            with StoredResults([path]) as stored:
+                code = overview(each.asset for each in stored).exit_code(exit_zero=True)
+    return tally, code
 
 
 def _recorded(tally: Tally, place: str) -> str:
@@ -240,9 +249,7 @@ def deliver_assets(
     illustrated: Iterator[Illustrated] = iter(())
     if drawing.folder is not None or "html" in to.forms:
         worst = worst_findings(stored, drawing.top)
-        illustrated = with_pictures(
-            worst, drawing.folder, drawing.root, allow_outside=drawing.allow_outside
-        )
+        illustrated = with_pictures(worst, drawing)
     for form, output in ((target.form, target.output) for target in to.targets):
         # Where no asset changed, stderr says so.
         if output is None and (to.quiet or (form == "table" and not (len(stored) or seen.issues))):

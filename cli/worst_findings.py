@@ -32,6 +32,17 @@ _UNSAFE = re.compile(r"[^A-Za-z0-9]+")
 _LONGEST_NAME = 80
 
 
+class Drawing(NamedTuple):
+    """How a gallery shows its worst findings. root: where the paths in the reports start. folder:
+    of a PNG of each. top: how many. undrawn: why none has a picture."""
+
+    root: Path = Path()
+    folder: Path | None = None
+    allow_outside: bool = False
+    top: int = 100
+    undrawn: str = ""
+
+
 class Worst(NamedTuple):
     finding: Finding
     stored: Stored
@@ -58,17 +69,14 @@ def _is_wrong(finding: Finding) -> bool:
     return severity(finding) in ("error", "warning") or finding.undecided is not None
 
 
-def with_pictures(
-    worst: Sequence[Worst], folder: Path | None, root: Path, *, allow_outside: bool
-) -> Iterator[Illustrated]:
-    """Each is drawn when it is taken, and written into the folder. root: where the paths in the
-    results start."""
-    now = lru_cache(_DIGESTS)(digest)
+def with_pictures(worst: Sequence[Worst], drawing: Drawing) -> Iterator[Illustrated]:
+    """Each is drawn when it is taken, and written into the folder."""
+    now, folder = lru_cache(_DIGESTS)(digest), drawing.folder
     if folder is not None:
         _make(folder)
     with Bar("pictures", "drawing") as bar:
         for number, each in enumerate(worst, 1):
-            picture = _picture(each, root, now, allow_outside=allow_outside)
+            picture = drawing.undrawn or _picture(each, drawing, now)
             if folder is not None:
                 _write(folder / file_name(number, each), each, picture)
             yield Illustrated(each.stored.asset, each.finding, picture)
@@ -98,14 +106,12 @@ def file_name(number: int, worst: Worst) -> str:
     return f"{number:03}-{words[:_LONGEST_NAME].strip('-')}.png"
 
 
-def _picture(
-    worst: Worst, root: Path, now: Callable[[str], str | None], *, allow_outside: bool
-) -> Picture:
-    changed = _changed(worst.stored, root, now)
+def _picture(worst: Worst, drawing: Drawing, now: Callable[[str], str | None]) -> Picture:
+    changed = _changed(worst.stored, drawing.root, now)
     if changed is not None:
         return changed
     try:
-        return _drawn(worst, root, allow_outside=allow_outside)
+        return _drawn(worst, drawing)
     except SatcheckError as error:
         return str(error)
 
@@ -119,12 +125,12 @@ def _changed(stored: Stored, root: Path, now: Callable[[str], str | None]) -> st
     return None
 
 
-def _drawn(worst: Worst, root: Path, *, allow_outside: bool) -> Picture:
+def _drawn(worst: Worst, drawing: Drawing) -> Picture:
     from satcheck.cli.formats.picture.png import render
     from satcheck.cli.formats.picture.slabs import with_slabs
 
     report = _of_finding(worst)
-    scene, issues = stated_scene(report, root, allow_outside=allow_outside)
+    scene, issues = stated_scene(report, drawing.root, allow_outside=drawing.allow_outside)
     if issues:
         return issues[0].message
     if len(scene.bodies) < len(report.bodies):

@@ -33,6 +33,7 @@ _ORPHANED_EXIT_CODE = 3
 # parent, it has ended the child at the limit.
 _GRACE_SECONDS = 5.0
 _LONGEST_SECONDS = 1e8
+_NO_MEMORY = b"MemoryError\n"  # the parent looks for it in the last lines
 
 
 def main(module: str, megabytes: int) -> None:
@@ -45,9 +46,9 @@ def main(module: str, megabytes: int) -> None:
         signal.signal(signal.SIGALRM, signal.SIG_DFL)
     reply_fd = os.dup(1)
     os.dup2(2, 1)
-    _limit_resources(megabytes)
     requests: SimpleQueue[bytes] = SimpleQueue()
     threading.Thread(target=_read_requests, args=(requests,), daemon=True).start()
+    _limit_resources(megabytes)  # no thread starts under a small limit
     while True:
         request, seconds = unwrapped(requests.get())
         _end_after(seconds + _GRACE_SECONDS)
@@ -87,14 +88,18 @@ def _serve(module: str, request: bytes) -> tuple[bytes, bytes]:
 
 
 def _read_requests(requests: SimpleQueue[bytes]) -> None:
-    while True:
-        header = _read_exactly(HEADER.size)
-        length = frame_length(header)
-        assert length is not None
-        frame = parse_frame(header + _read_exactly(length - HEADER.size))
-        if frame is None:
-            _end_as_orphan()
-        requests.put(frame[1])
+    try:
+        while True:
+            header = _read_exactly(HEADER.size)
+            length = frame_length(header)
+            assert length is not None
+            frame = parse_frame(header + _read_exactly(length - HEADER.size))
+            if frame is None:
+                _end_as_orphan()
+            requests.put(frame[1])
+    except MemoryError:  # the main thread would wait for the request
+        os.write(2, _NO_MEMORY)
+        os._exit(1)
 
 
 def _read_exactly(length: int) -> bytes:

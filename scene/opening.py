@@ -165,14 +165,11 @@ _status = os.stat
 
 class FilesRead:
     """The files that a check has read or looked for, in that order. `folder/` stands for the names
-    of the folders in it.
-
-    digests: the SHA-256, hex, of the bytes of those of which it was made as they were read.
-    """
+    of the folders in it."""
 
     def __init__(self) -> None:
         self._signatures: dict[str, Signature] = {}
-        self.digests: dict[str, str] = {}
+        self._digests: dict[str, str] = {}
         self._lost = False
         self._began_ns = time.time_ns()
 
@@ -186,6 +183,13 @@ class FilesRead:
     def add(self, name: str) -> None:
         if name not in self._signatures:
             self._signatures[name] = signature(name)
+
+    def add_digest(self, name: str, digest: str) -> None:
+        self._digests[name] = digest
+
+    def digest(self, name: str) -> str | None:
+        """Return the SHA-256, hex, of the bytes; None: it was not made as they were read."""
+        return self._digests.get(name)
 
     def lose(self) -> None:
         self._lost = True
@@ -219,7 +223,7 @@ def note(location: str | Path) -> None:
 
 def _note_digest(location: StrPath, digest: str) -> None:
     for listener in _listening:
-        listener.digests[str(location)] = digest
+        listener.add_digest(str(location), digest)
 
 
 def note_folders_in(folder: Path) -> None:
@@ -320,7 +324,7 @@ class Context:
         if not self.permits(place):
             raise self.refusal(what)
         if not is_file(place):
-            raise Refused("missing-resource", f"{what} is missing")
+            raise no_file(place, f"{what} ") or Refused("missing-resource", f"{what} is missing")
         return place
 
     @contextmanager
@@ -399,6 +403,7 @@ _ENDS = (b"\n", b"\r", b"}", b">")  # of a line, JSON, XML
 
 # Opening one of these may block, or reading it may never end.
 _SPECIAL = (
+    (stat.S_ISDIR, "a directory"),
     (stat.S_ISFIFO, "a pipe"),
     (stat.S_ISSOCK, "a socket"),
     (stat.S_ISCHR, "a device"),
@@ -460,12 +465,22 @@ def size_of(location: StrPath) -> int:
         raise _unreadable(error) from None
     except ValueError as error:  # a path with a NUL character
         raise Refused("unreadable-file", f"cannot be read: {error}") from None
-    if stat.S_ISDIR(status.st_mode):
-        raise Refused("not-a-file", "is a directory, not a file")
-    if not stat.S_ISREG(status.st_mode):
-        kind = next((name for test, name in _SPECIAL if test(status.st_mode)), "a special file")
-        raise Refused("not-a-file", f"is {kind}, not a file: not read")
+    if not stat.S_ISREG(status.st_mode) and (special := no_file(location)):
+        raise special
     return status.st_size
+
+
+def no_file(location: StrPath, what: str = "") -> Refused | None:
+    """Return the error for a place with something else than a file; None: it has a file, or
+    nothing. what: words for the place, with a space behind."""
+    try:
+        mode = os.stat(location).st_mode  # noqa: PTH116
+    except (OSError, ValueError):
+        return None
+    if stat.S_ISREG(mode):
+        return None
+    kind = next((name for test, name in _SPECIAL if test(mode)), "a special file")
+    return Refused("not-a-file", f"{what}is {kind}, not a file")
 
 
 def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:

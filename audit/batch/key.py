@@ -62,7 +62,7 @@ class Digests:
         at = files.signature(name)
         known = self._known.pop(name, None)
         if known is None or known[0] != at:
-            known = at, files.digests.get(name) or digest(name)
+            known = at, files.digest(name) or digest(name)
         if files.is_settled(name):
             self._known[name] = known
             if len(self._known) > _MOST_DIGESTS:

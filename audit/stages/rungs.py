@@ -10,7 +10,7 @@ from satcheck.report.report import Stage
 if TYPE_CHECKING:
     from satcheck import core
 
-_UNTURNED = "neither body is turned: its oriented box is its world box"
+_UNTURNED = "neither placement turns: oriented boxes are the world boxes"
 _SHEARED = "a transform shears: the carried box is no box"
 _NOT_CONVEX = "not both convex: hulls prove only separation"
 # The axis of least overlap, or the axis that separates, by the features that it is made of.

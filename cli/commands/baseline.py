@@ -21,6 +21,7 @@ from satcheck.audit.baseline import (
 from satcheck.audit.batch.stored import ENDINGS, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli.click_classes import HELP_NAMES, Group
+from satcheck.cli.option import together
 from satcheck.cli.output import Document, issue_line, talk, write_file
 from satcheck.cli.stated_scene import read_stored
 from satcheck.core.errors import SatcheckError
@@ -38,18 +39,20 @@ reports_argument = click.argument(
     required=True,
     type=click.Path(dir_okay=False, path_type=Path),
 )
-reason_option = click.option(
-    "--reason", default="", metavar="TEXT", help="Why these findings are accepted."
-)
-unmeasured_option = click.option(
-    "--without-figures",
-    is_flag=True,
-    help="Accept overlaps of unknown depth, however deep they get.",
-)
-undecided_option = click.option(
-    "--undecided",
-    is_flag=True,
-    help="Accept pairs too that holes or units leave undecided, for that reason alone.",
+acceptance = together(
+    file_argument,
+    reports_argument,
+    click.option("--reason", default="", metavar="TEXT", help="Why these findings are accepted."),
+    click.option(
+        "--without-figures",
+        is_flag=True,
+        help="Accept overlaps of unknown depth, however deep they get.",
+    ),
+    click.option(
+        "--undecided",
+        is_flag=True,
+        help="Accept pairs too that holes or units leave undecided, for that reason alone.",
+    ),
 )
 
 
@@ -69,11 +72,7 @@ def command() -> None:
 
 
 @command.command("write", context_settings=HELP_NAMES)
-@file_argument
-@reports_argument
-@reason_option
-@unmeasured_option
-@undecided_option
+@acceptance
 def write(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -> None:
     """Write a new baseline with the failing findings of reports."""
     if exists(file) and not any(map(exists, reports)):
@@ -86,11 +85,7 @@ def write(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -
 @command.command(
     "update", context_settings=HELP_NAMES, short_help="Add findings that are new or worse."
 )
-@file_argument
-@reports_argument
-@reason_option
-@unmeasured_option
-@undecided_option
+@acceptance
 def update(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -> None:
     """Add new findings of reports, and take over figures that are worse or were not known."""
     _update(file, read_baseline(file), reports, reason, **accepting)

@@ -10,7 +10,7 @@ import click
 from click.core import ParameterSource
 
 from satcheck.cli.click_classes import HELP_NAMES, Command, Group
-from satcheck.cli.config import COMMANDS, config_of, configurable
+from satcheck.cli.config import COMMANDS, config_of, configurable, place_of
 from satcheck.cli.formats.summary import toml
 from satcheck.cli.output import Document
 
@@ -51,11 +51,12 @@ def show(arguments: Sequence[str]) -> None:
 
 def _row(ctx: click.Context, key: str, option: click.Option) -> tuple[str, str]:
     """Return `jobs = 2`, and `satcheck.toml:3`."""
-    file, source = config_of(ctx), ctx.get_parameter_source(option.name or "")
-    if file is not None and source is ParameterSource.DEFAULT_MAP:
-        return f"{key} = {toml(file.values[key])}", file.where(key)
+    file, place = config_of(ctx), place_of(ctx, key, option)
+    if file and place:
+        return f"{key} = {toml(file.values[key])}", place
     value = ctx.params.get(option.name or "", option.get_default(ctx))
     if option.flag_value is False:  # --no-timings
         value = not value
     said = "not set" if value is None or value in ((), {}) else toml(value)
-    return f"{key} = {said}", "command line" if source is ParameterSource.COMMANDLINE else "default"
+    typed = ctx.get_parameter_source(option.name or "") is ParameterSource.COMMANDLINE
+    return f"{key} = {said}", "command line" if typed else "default"

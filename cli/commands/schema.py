@@ -77,6 +77,10 @@ def _property(option: click.Option) -> dict[str, Any]:
     described = {"description": " ".join((option.help or "").split("[default")[0].split())}
     if option.is_flag:
         return {"type": "boolean", **described}
+    if option.nargs > 1:
+        size = {"minItems": option.nargs, "maxItems": option.nargs}
+        several = {"type": "array", "items": {"type": "string"}, **size}
+        return {"type": "array", "items": several, **described}
     if option.multiple:
         texts = {"type": "array", "items": {"type": "string"}}
         return {"anyOf": [texts, {"type": "string"}], **described}

@@ -33,7 +33,8 @@ from satcheck.cli.rendering import (
     rendered,
 )
 from satcheck.cli.stated_scene import read_stored, stated_scene
-from satcheck.cli.worlds import Drawing, deliver_assets, tell_assets
+from satcheck.cli.worlds import deliver_assets, tell_assets
+from satcheck.cli.worst_findings import Drawing
 from satcheck.report.assets import Asset, AssetsReport
 from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SamplesReport
@@ -176,14 +177,14 @@ class _View(NamedTuple):
         if is_page or not others:
             for issue in issues:
                 talk(f"satcheck: {issue_line(issue)}")
-            of_issues = exit_codes.for_counts(Counter([least_of(issues)]), exit_zero=False)
+            of_issues = exit_codes.for_counts(Counter([least_of(issues)]))
             return min(filter(None, (code, of_issues)), default=exit_codes.CLEAN)
         to = replace(self.to, targets=others)
         found = (each.asset for each in stored)
         seen = overview(found, issues, top=self.drawing.top)
         deliver_assets(self.document, seen, stored, to, self.drawing, only_shown=to.top is not None)
         tell_assets(seen, to)
-        return exit_codes.for_counts(seen.verdicts, exit_zero=to.exit_zero)
+        return seen.exit_code(exit_zero=to.exit_zero)
 
     def _worst(self, stored: Sequence[Stored] | StoredResults) -> int:
         """Show the worst of many assets; one with a finding, if there is any, as a file that cannot
@@ -254,11 +255,6 @@ def _show(content: str, document: Document) -> None:
     path = Path(mkdtemp(prefix="satcheck-")) / "report.html"
     write_file(path, content)
     document.write(f"{path}\n")
-    if _has_display():
+    displays = map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY"))
+    if sys.platform in ("win32", "darwin") or any(displays):
         webbrowser.open(path.as_uri())
-
-
-def _has_display() -> bool:
-    return sys.platform in ("win32", "darwin") or any(
-        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
-    )

@@ -22,6 +22,7 @@ from satcheck.audit.batch.stored import least_of
 from satcheck.audit.messages import clause, failing
 from satcheck.audit.summary import tool
 from satcheck.audit.words import common_root, counted, rank, with_titles
+from satcheck.cli import exit_codes
 from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import BesideBaseline, config_lines
@@ -245,7 +246,8 @@ def _listed(asset: Asset) -> list[Problem]:
 
 
 class Overview(Struct):
-    """counts: of each verdict. named: the first assets with each verdict, one more than are shown.
+    """counts: of each verdict; forgiven: of each if nothing failed. named: the first assets with
+    each verdict, one more than are shown.
     unchecked: the number of passing assets whose pairs are all allowed; lone: of those with one
     body or none; folders: of those that stand for accepted files which no reader knows, and are no
     assets. compared: the number of assets with a question. accepted: the number of accepted issues.
@@ -254,6 +256,7 @@ class Overview(Struct):
     """
 
     counts: Counter[AssetVerdict] = field(default_factory=Counter)
+    forgiven: Counter[AssetVerdict] = field(default_factory=Counter)
     named: dict[AssetVerdict, list[str]] = field(default_factory=dict)
     unchecked: int = 0
     lone: int = 0
@@ -265,15 +268,15 @@ class Overview(Struct):
     shown: list[Asset] = field(default_factory=list)
     issues: tuple[Issue, ...] = ()
 
-    @property
-    def verdicts(self) -> Counter[AssetVerdict]:
-        """Those of the assets, and the one that the issues allow at best."""
-        return self.counts + Counter([least_of(self.issues)])
+    def exit_code(self, *, exit_zero: bool) -> int:
+        """Return that of the worst asset. exit_zero: as if nothing failed."""
+        counts = self.forgiven if exit_zero else self.counts
+        return exit_codes.for_counts(counts + Counter([least_of(self.issues)]))
 
     @property
     def verdict(self) -> AssetVerdict:
-        """The worst."""
-        return worst_verdict(self.verdicts)
+        """The worst of the assets, and of what the issues allow at best."""
+        return worst_verdict(self.counts + Counter([least_of(self.issues)]))
 
     def report(self) -> AssetsReport:
         """Without the assets."""
@@ -296,6 +299,8 @@ class Overview(Struct):
 
     def noting(self, asset: Asset) -> Asset:
         self.counts[asset.verdict] += 1
+        fails = asset.verdict == "fail"
+        self.forgiven[exit_codes.without_failures(asset.report) if fails else asset.verdict] += 1
         named = self.named.setdefault(asset.verdict, [])
         if len(named) <= NAMED:
             named.append(asset.file)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.words import counted, number, vector, with_unit
 from satcheck.cli.formats.summary import counts_line
-from satcheck.cli.formats.tables import Column, fitted_each, joined, table
+from satcheck.cli.formats.tables import ROWS, Column, fitted_each, joined, table
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.report import Report
     from satcheck.report.resolution import Move, ResolutionReport, ResolutionSummary
-
-# More rows than this, and the longest moves are shown.
-ROWS = 60
 
 
 def render(resolution: ResolutionReport, report: Report, page: Page) -> str:

@@ -64,7 +64,9 @@ def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
     said += _remarks(result.samples)
     if result.config is not None:
         said.append(config_line(result.config))
-    said += [samples_counts(result), samples_verdict(result), *samples_next(result)]
+    said += [samples_counts(result), samples_verdict(result)]
+    if result.summary.verdict == "fail":
+        said.append("Next: -o report.html shows the poses in 3-D.")
     return joined([*lines, *fitted_each(said, page)], page)
 
 
@@ -165,12 +167,6 @@ def samples_verdict(result: SamplesReport) -> str:
         return f"{word}: no collision in any pose."
     unchecked = nothing_checked(result.issues)
     return " ".join([f"{word}:", *(unchecked or ["no collision was found, but not proven."])])
-
-
-def samples_next(result: SamplesReport) -> list[str]:
-    """`Next: -o report.html shows them in 3-D.`; nothing unless some fail."""
-    fails = result.summary.verdict == "fail"
-    return ["Next: -o report.html shows the poses in 3-D."] if fails else []
 
 
 def _failed(result: SamplesReport) -> str:

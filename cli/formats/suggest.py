@@ -7,7 +7,6 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
-from itertools import islice
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
@@ -131,10 +130,11 @@ def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
     rules = rules_of(suggestions, pairs)
     head += "" if rules else "rules = []\n"
     blocks = [
-        f"# {_left_out(pair)}"
+        f"# not suggested: {_left_out(pair)}"
         for pair in report.unchecked
         if pair.adjacent or pair.reason == NO_FIGURE or pair.reason.startswith(LOOSER)
     ]
+    blocks = [*dict.fromkeys(blocks)]  # several assets may have pairs of the same names
     blocks += ["\n".join(_lines(rule, report)) for rule in rules]
     return "\n".join((head, *(f"{block}\n" for block in blocks)))
 
@@ -178,7 +178,7 @@ def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> s
     some of their bodies could not be checked, a comment says so instead. robot: its name."""
     report = suggestions.report
     unchecked = {frozenset(pair.links): pair for pair in report.unchecked if pair.links is not None}
-    lines = {links: _comment(_left_out(pair)) for links, pair in unchecked.items() if pair.adjacent}
+    lines = {links: _why_not(pair) for links, pair in unchecked.items() if pair.adjacent}
     order = list(_SRDF_REASONS)
     of_links = [pair for pair in pairs if pair.links is not None and pair.why in order]
     for pair in sorted(of_links, key=lambda pair: (order.index(pair.why), -(pair.contacts or 0))):
@@ -187,7 +187,7 @@ def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> s
         if links in lines or (pair.why == "never" and links in suggestions.may_meet):
             continue
         if links in unchecked:
-            lines[links] = _comment(_left_out(unchecked[links]))
+            lines[links] = _why_not(unchecked[links])
             continue
         line = f"<disable_collisions link1={quoteattr(a)} link2={quoteattr(b)} "
         line += f'reason="{_SRDF_REASONS[pair.why]}"/> '
@@ -208,20 +208,28 @@ def remark(suggestions: Suggestions, pairs: Sequence[Suggestion], *, never: bool
     if left_out := sum(pair.adjacent for pair in report.unchecked):
         pairs_left = counted(left_out, "pair")
         said += f" Not suggested, as not checked: {pairs_left} with a joint between the links."
-    for pair, reason in islice(suggestions.undecided.items(), _NAMED):
+    looser = Counter(_left_out(pair) for pair in report.unchecked if pair.reason.startswith(LOOSER))
+    for text, count in looser.items():
+        said += f"\nNot suggested: {text} ({counted(count, 'asset')})"
+    undecided = [each for each in suggestions.undecided.items() if not each[1].startswith(LOOSER)]
+    for pair, reason in undecided[:_NAMED]:
         said += f"\nNot decided: {pair}: {reason.removeprefix('undecided: ')}"
-    if (more := len(suggestions.undecided) - _NAMED) > 0:
+    if (more := len(undecided) - _NAMED) > 0:
         said += f"\nNot decided: {counted(more, 'more pair')}"
     return said
 
 
 def _left_out(pair: Unchecked) -> str:
-    """Return a comment of one line, whatever the names hold."""
+    """Return the pair and the reason in one line, whatever the names hold."""
     joined = "a joint connects them, but " if pair.adjacent else ""
     is_known = pair.reason.startswith(LOOSER)
     why = pair.reason if is_known else f"{joined}they could not be checked: {pair.reason}"
-    text = f"not suggested: {pair.a} and {pair.b}: {why}"
+    text = f"{pair.a} and {pair.b}: {why}"
     return "".join(c if c.isprintable() else "?" for c in text)
+
+
+def _why_not(pair: Unchecked) -> str:
+    return _comment(f"not suggested: {_left_out(pair)}")
 
 
 def _comment(text: str) -> str:

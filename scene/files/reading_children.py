@@ -31,6 +31,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import File, ReadLimits
 from satcheck.scene.issue import CODES
 from satcheck.scene.opening import (
+    DEFAULT_MEGABYTES_PER_FILE,
     files_read,
     note,
     note_lost_reader,
@@ -134,6 +135,9 @@ def _lost(error: WorkerError, file: File, megabytes: int) -> Refused:
         said = _one_line(f"the {kind} reader failed: {what}")
     else:
         said = _one_line(f"the {kind} reader died: {error.message}")
+    if code == "reader-failed" and megabytes < DEFAULT_MEGABYTES_PER_FILE:
+        # A library that does not look whether it got memory fails or dies in any way.
+        said += f"; {megabytes} MiB may be too little (raise it with --limit megabytes=N)"
     return Refused(code, said, file=file.path)
 
 

@@ -30,6 +30,7 @@ from satcheck.scene.opening import (
     followed,
     is_file,
     is_folder,
+    no_file,
     note,
     note_folders_in,
     read_whole,
@@ -106,7 +107,7 @@ class FilePlaces:
                 hint = "--allow-outside, or with a package.xml in the folder that holds both"
                 raise self._context.refusal("it", f"allow it with {hint}")
             return place
-        if may_be_model and "/" not in rest:
+        if may_be_model and "/" not in rest and place.code == "missing-resource":
             return self._in_package(rest, models)
         raise place
 
@@ -227,6 +228,8 @@ def _existing(folder: Path, path: str, models: bool, *, quoted: bool) -> Path | 
             return place
     if models and any(map(_is_folder, places)):
         return Refused("missing-resource", f"no {MODEL_MANIFESTS[0]} in {places[-1]}")
+    if error := next(filter(None, map(no_file, places)), None):
+        return error
     above = places[-1].parent
     where = f"{above.as_posix().rstrip('/')}/"
     what = f"no such file in {where}" if _is_folder(above) else f"there is no folder {above}"

@@ -145,6 +145,8 @@ def test_show_says_where_options_come_from(folder: Path) -> None:
         ("width = 1\n", "width: 1.0 is not in the range 0<x<1 (--no"),
         ("clearance = '2 miles'\n", "satcheck.toml:1: clearance: "),
         ("rules = [['a']]\n", "satcheck.toml:1: rules: a text or a number expected"),
+        ("between = ['a', 'b']\n", "satcheck.toml:1: between: lists in a list expected"),
+        ("between = [['a']]\n", "satcheck.toml:1: between: Takes 2 values but 1 was given"),
         ("[each]\njobs = 1\n", "satcheck.toml:1: each: no such option"),
         ("debug = true\n", "satcheck.toml:1: debug: no such option"),
         ("jobs = \n", "satcheck.toml: not readable TOML"),
@@ -198,6 +200,21 @@ def test_the_schema_knows_every_option() -> None:
     check = Draft202012Validator(document)
     assert [values for values in sound if not check.is_valid(values)] == []
     assert [values for values in wrong if check.is_valid(values)] == []
+
+
+def test_pairs_of_names_come_from_the_file(folder: Path) -> None:
+    shutil.copy(SAMPLES / "cube.off", folder)
+    config(folder, 'between = [["box", "cube"]]\n')
+    check = Draft202012Validator(json.loads(satcheck("schema", "config").out))
+    assert check.is_valid({"between": [["box", "cube"]]})
+    assert not check.is_valid({"between": ["box", "cube"]})
+    ran = satcheck(*PUSHED, "cube.off", *JSON, cwd=folder)
+    VALIDATOR.validate(ran.document)
+    assert (ran.code, ran.document["summary"]["pairs"]["allowed"]) == (0, 2)
+    assert ran.document["config"]["options"] == {"between": ["box cube"]}
+    config(folder, 'between = [["box", "gone"]]\n')
+    ran = satcheck(*PUSHED, cwd=folder)
+    assert (ran.code, "satcheck.toml:1: between: no body is gone" in ran.err) == (2, True)
 
 
 def test_ci_formats_name_the_config_file(folder: Path) -> None:

@@ -420,6 +420,30 @@ def test_what_is_not_checked_never_passes(tmp_path: Path) -> None:
     assert satcheck("view", "all.json", "--exit-zero", "--format", "csv", cwd=tmp_path).code == 3
 
 
+def test_an_open_pair_counts_beside_one_that_fails_in_the_same_asset(tmp_path: Path) -> None:
+    """As in a plain check of this asset."""
+    for name in ("open_box.off", "cube.off", "box.obj", "box_pushed.stl"):
+        shutil.copy(SAMPLES / name, tmp_path)
+    body = '[[bodies]]\nid = "{0}"\nmesh = "{1}"\nposition = [{2}, 0, {3}]\n'
+    failing = [body.format("a", "box.obj", 30, 0), body.format("b", "box_pushed.stl", 30, 0)]
+    open_too = [
+        *failing,
+        body.format("c", "open_box.off", 0, 0),
+        body.format("d", "cube.off", 0, 2),
+    ]
+    for name, bodies in (("fails", failing), ("open", open_too)):
+        text = "".join(['schema = "satcheck.scene/1"\n', *bodies])
+        (tmp_path / f"{name}.toml").write_text(text)
+    codes = {}
+    for name in ("fails", "open"):
+        scene, results = f"{name}.toml", f"{name}.jsonl"
+        calls = [(scene,), ("batch", scene), ("batch", scene, "-o", results)]
+        calls += [("batch", scene, "-o", f"{name}2.jsonl", "-o", f"{name}.csv")]
+        calls += [("view", results, "--format", "csv")]
+        codes[name] = [satcheck(*call, "--exit-zero", cwd=tmp_path).code for call in calls]
+    assert codes == {"fails": [0] * 5, "open": [3] * 5}
+
+
 def test_without_a_place_for_results_the_run_says_so(assets: Path) -> None:
     lost = f"import sys, tempfile; tempfile.tempdir = {str(assets / 'gone')!r}"
     call = f"{lost}; sys.argv = ['satcheck', 'batch', '.']; from satcheck.cli import main; main()"
@@ -432,6 +456,27 @@ def test_without_a_place_for_results_the_run_says_so(assets: Path) -> None:
     )
     assert (ran.returncode, ran.stdout) == (2, b"")
     assert b"error: a temporary file: cannot write: No such file" in ran.stderr
+
+
+@on_posix
+def test_a_full_place_for_results_says_what_to_do(assets: Path) -> None:
+    """A limit of the size of files stands for it, as in test_batch_ends."""
+    import resource
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (500, resource.RLIM_INFINITY))
+
+    ran = subprocess.run(
+        command("batch", "."),
+        cwd=assets,
+        env=environment({"PYTHONDONTWRITEBYTECODE": "1"}),
+        preexec_fn=limit,
+        capture_output=True,
+        check=False,
+    )
+    assert (ran.returncode, ran.stdout) == (2, b"")
+    assert b"results.jsonl: cannot be written" in ran.stderr
+    assert b"name another folder in TMPDIR, or a file for the results" in ran.stderr
 
 
 def test_a_folder_of_accepted_files_is_no_asset(tmp_path: Path) -> None:

@@ -171,6 +171,20 @@ def test_a_report_of_assets_that_are_done_is_no_pass(
     assert [issue["code"] for issue in document["issues"]] == ["interrupted"]
 
 
+def test_a_gallery_of_what_is_done_waits_for_no_picture(
+    start: Callable[..., Started], tmp_path: Path
+) -> None:
+    boxes(tmp_path, "hang.obj")
+    shutil.copy(SAMPLES / "gripper.glb", tmp_path / "a.glb")
+    run = start("batch", "a.glb", "hang.obj", "-o", "all.html", "-j", "1")
+    run.wait_for_answers()
+    code, _, err = run.interrupted()
+    assert (code, "interrupted: 1 of 2 assets was not checked" in err) == (130, True)
+    page = (tmp_path / "all.html").read_text()
+    assert "No picture: interrupted" in page
+    assert "<img" not in page
+
+
 def test_without_an_asset_that_is_done_there_is_no_report(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
@@ -217,13 +231,13 @@ def test_a_second_one_ends_what_is_still_being_written(
 def test_where_it_is_ignored_it_stays_ignored(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:
-    """As in a background job of a shell. The child of this command is stopped after a second."""
+    """As in a background job of a shell. The child of this command is stopped after seconds."""
     boxes(tmp_path, "a.obj", "hang.obj")
 
     def ignore() -> None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
-    options = ("--limit", "scene-seconds=1", "-j", "1")
+    options = ("--limit", "scene-seconds=5", "-j", "1")
     run = start("batch", "a.obj", "hang.obj", *options, preexec_fn=ignore)
     assert until(run.begun.exists)
     code, out, err = run.interrupted()

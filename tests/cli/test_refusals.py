@@ -61,6 +61,12 @@ def test_an_option_raises_the_limit_that_refuses_a_file(tmp_path: Path) -> None:
     assert read.document["settings"]["megabytes_per_file"] == 8
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux is known to limit address space")
+def test_a_limit_that_no_child_process_fits_into_says_which_option_raises_it() -> None:
+    ran = satcheck("--limit", "megabytes=4", "rack.3mf", "box.obj")
+    assert "needs more than 4 MiB (raise it with --limit megabytes=N)" in ran.err
+
+
 @pytest.mark.parametrize(
     ("name", "content"),
     [

@@ -252,6 +252,18 @@ def test_a_rule_that_would_loosen_another_asset_is_not_suggested(
     assert "satcheck baseline keeps the figures of each asset" in ran.err
 
 
+def test_pairs_of_the_same_names_are_left_out_in_one_line(tmp_path: Path) -> None:
+    (tmp_path / "kit").mkdir()
+    for name in ("p", "q", "r"):
+        (tmp_path / "kit" / f"{name}.toml").write_text(box_on_plate(-4.0 if name == "r" else -5.0))
+    ran = satcheck("suggest", "kit", cwd=tmp_path)
+    said = "plate and bolt1: a rule goes by names: it would let bodies of these names overlap more"
+    assert ran.out.count(f"# not suggested: {said}") == 1
+    assert ran.err.count(f"Not suggested: {said}") == 1
+    assert "the figures of each asset (3 assets)\n" in ran.err
+    assert "Not decided" not in ran.err
+
+
 def test_names_that_another_asset_has_are_counted(tmp_path: Path) -> None:
     """Its legs only touch the top, and a rule cannot leave the asset out: it says so."""
     (tmp_path / "kit").mkdir()

@@ -51,3 +51,14 @@ def test_most_of_it_stays_proven() -> None:
         found = mesh_relation(damaged(a.mesh(seed=seed), rng), Surface(b.mesh(seed=seed), True))
         proven += found.proven
     assert proven > 30
+
+
+def test_the_rims_of_holes_are_loops_of_their_vertices_the_largest_first() -> None:
+    """A box without its lid, and without half of its floor."""
+    corners = [(x, y, z) for z in (0, 1) for y in (0, 2) for x in (0, 2)]
+    walls = [(0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
+    faces = [half for a, b, c, d in walls for half in ((a, b, c), (a, c, d))]
+    surface = Surface(Mesh(np.array(corners, float), np.array([*faces, (0, 2, 3)])), False)
+    lid, floor = ([set(loop) for loop in loops] for loops in surface.rims())
+    assert sorted([lid, floor], key=str) == sorted([[{4, 5, 6, 7}], [{0, 1, 3}]], key=str)
+    assert Surface(random_sum(random.Random(1), 3, 5).mesh(IDENTITY, 1), True).rims() == []

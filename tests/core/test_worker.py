@@ -97,6 +97,13 @@ def test_memory_limit_of_the_child() -> None:
     assert caught.value.code == "worker-out-of-memory"
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux is known to limit address space")
+@pytest.mark.parametrize("megabytes", [1, 4, 16])
+def test_a_limit_below_what_python_takes_is_out_of_memory(megabytes: int) -> None:
+    with pytest.raises(WorkerOutOfMemory):
+        ask(b"echo x" * 500_000, megabytes=megabytes)
+
+
 def test_a_reply_above_the_memory_limit_is_refused_everywhere(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

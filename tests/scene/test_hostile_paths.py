@@ -49,7 +49,24 @@ def test_names_that_no_buffer_has(tmp_path, uri):
     document, _ = files.gltf_document()
     document["buffers"][0]["uri"] = uri
     content = json.dumps(document).encode()
-    assert refusal(tmp_path, "a.gltf", content)[0] == "missing-resource"
+    code = "not-a-file" if uri in ("", ".") else "missing-resource"
+    assert refusal(tmp_path, "a.gltf", content)[0] == code
+
+
+@needs_pipes
+@pytest.mark.parametrize(("make", "what"), [("mkfifo", "a pipe"), ("mkdir", "a directory")])
+def test_what_a_file_names_is_said_where_it_is_no_file(tmp_path, make, what):
+    getattr(os, make)(tmp_path / "b.stl")
+    document, _ = files.gltf_document()
+    document["buffers"][0]["uri"] = "b.stl"
+    mesh = '<collision><geometry><mesh filename="b.stl"/></geometry></collision>'
+    robot = robots.robot_of(robots.link("a", mesh)).encode()
+    for name, content in (("a.gltf", json.dumps(document).encode()), ("a.urdf", robot)):
+        (found,) = issues(write(tmp_path, name, content))
+        assert found[0] == "not-a-file"
+        assert f"is {what}, not a file" in found[1]
+    error = scene_error(tmp_path, "b.stl")
+    assert (error.code, f"is {what}, not a file" in str(error)) == ("not-a-file", True)
 
 
 def scene_with(mesh):

@@ -34,11 +34,8 @@ THICKNESS = Material("thickness", (1.0, 0.85, 0.1, 1.0))
 def render(report: Report, scene: Scene) -> bytes:
     """In world coordinates, in metres where the unit is known. Bodies of one mesh share it."""
     require_drawable(scene)
-    findings, moments, worst = (
-        listed(report),
-        moments_of(report, scene),
-        drawn_finding(report, scene),
-    )
+    findings, moments = listed(report), moments_of(report, scene)
+    worst = drawn_finding(report, scene)
     moment = 0 if worst is None else moments.of.get(worst.id, 0)
     scene = moments.scene_at(scene, moment)
     met = {id_ for finding in findings for id_ in (finding.a, finding.b)}

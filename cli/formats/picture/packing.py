@@ -17,10 +17,7 @@ from satcheck.core import Mesh
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from satcheck.core import Mesh
-
     Array = npt.NDArray[Any]
-    import numpy.typing as npt
 
 STEPS = 65535  # of a coordinate, from one side of the box of its mesh to the other
 

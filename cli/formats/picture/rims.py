@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from satcheck.core import Mesh
     from satcheck.report.report import Finding
     from satcheck.scene import Body
 
@@ -52,51 +51,11 @@ def deciding_rim(
     """None: no hole decides how the bodies relate. pair: as placed. surface: of one as placed."""
     if finding.undecided not in _BY_HOLES or not any(body.file.health.holes for body in pair):
         return None
-    meshes = [body.world_mesh() for body in pair]
     hole = core.mesh_relation(*map(surface, pair)).hole
     if hole is None:
         return None
-    side = 0 if hole.of_a else 1
+    body = pair[0 if hole.of_a else 1]
     which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
-    rims = [Rim(pair[side].id, which, hole.diameter, lines) for lines in _holes(meshes[side])]
-    at = np.array(hole.centre)
-    return min(rims, key=lambda rim: float(np.linalg.norm(rim.centre - at)), default=None)
-
-
-def _holes(mesh: Mesh) -> list[list[Floats]]:
-    """The rims of each hole. Those that share a vertex are of one."""
-    holes: list[tuple[set[int], list[list[int]]]] = []
-    for loop in _loops(_boundary(np.asarray(mesh.triangles, dtype=np.int64), mesh.vertex_count)):
-        own = [hole for hole in holes if not hole[0].isdisjoint(loop)]
-        holes = [hole for hole in holes if hole[0].isdisjoint(loop)]
-        corners = set(loop).union(*(hole[0] for hole in own))
-        holes.append((corners, [loop, *(one for hole in own for one in hole[1])]))
-    points = np.asarray(mesh.vertices)
-    return [[points[loop] for loop in loops] for _, loops in holes]
-
-
-def _boundary(triangles: npt.NDArray[np.int64], count: int) -> npt.NDArray[np.int64]:
-    """The edges that triangles run more often in one direction than in the other, (n, 2)."""
-    edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    low, high = edges.min(axis=1), edges.max(axis=1)
-    keys, edge = np.unique(low * count + high, return_inverse=True)
-    surplus = np.bincount(edge.reshape(-1), np.where(edges[:, 0] == low, 1, -1), len(keys))
-    ends = np.stack(np.divmod(keys, count), axis=1)[surplus != 0]
-    forward = surplus[surplus != 0] > 0
-    boundary: npt.NDArray[np.int64] = np.where(forward[:, None], ends, ends[:, ::-1])
-    return boundary
-
-
-def _loops(edges: npt.NDArray[np.int64]) -> list[list[int]]:
-    """Closed walks along all edges; each repeats its start."""
-    following: dict[int, list[int]] = {}
-    for start, end in edges.tolist():
-        following.setdefault(start, []).append(end)
-    loops = []
-    for start, ends in following.items():
-        while ends:
-            loop = [start]
-            while following.get(loop[-1]):
-                loop.append(following[loop[-1]].pop())
-            loops.append(loop)
-    return loops
+    points = np.asarray(body.world_mesh().vertices)
+    loops = surface(body).rims()[hole.number]
+    return Rim(body.id, which, hole.diameter, [points[[*loop, loop[0]]] for loop in loops])

@@ -57,6 +57,14 @@ fill.)")
            },
            ReleaseGil(), R"((surface, hulls): the closed surface, and for each hole a surface that encloses every fill of it. Outside of these
 hulls the winding numbers do not depend on the fill.)")
+      .def("rims",
+           [](const Surface& s) {
+             std::vector<std::vector<BoundaryLoop>> rims;
+             if (s.solid) return rims;
+             for (const Hole& hole : closing_of(s, OpenParts::filled)->holes) rims.push_back(hole.loops);
+             return rims;
+           },
+           ReleaseGil(), "For each hole, the largest first, its loops: the numbers of their vertices, each once.")
       .def("sheets_around",
            [](const Surface& s, const Tuple3& point) {
              return generalized_winding_number(s.mesh, s.sheets, finite_point(point));
