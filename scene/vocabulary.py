@@ -86,6 +86,8 @@ class UnknownNames:
         if names.read.issuperset(found):
             return
         for name in found:
+            if names.knows(name):
+                continue
             key = kind, name
             if key in self._counts:
                 self._counts[key] += 1
