@@ -42,12 +42,12 @@ from satcheck.scene.files.readers import (
 from satcheck.scene.issue import BLOCKING, UNUSED_OPTION, Issue, issue
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.opening import (
-    ANYWHERE,
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
     NOTHING_ELSE,
     Permitted,
     name_of,
+    read_whole,
     suffix_of,
 )
 from satcheck.scene.rules import Rule, Selector
@@ -308,20 +308,18 @@ def read_rules(path: str, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
     return read_rules_file(path, Path(path), permitted)
 
 
-def is_rules(path: str) -> bool:
+def is_rules(path: str, permitted: Permitted) -> bool:
     """Return whether the input is a scene file without bodies, whose rules apply to all bodies.
     Raises Refused."""
-    return kind_of(path) == "scene" and not _scene(path, ANYWHERE).items
+    return kind_of(path) == "scene" and not _scene(path, permitted).items
 
 
-def has_only_rules(path: str) -> bool:
+def has_only_rules(path: str, permitted: Permitted) -> bool:
     """Return whether the input is a scene file with rules and without bodies. Raises
     Refused."""
-    from satcheck.scene.asset_files import content_of
-
-    if kind_of(path) != "scene" or _BODY.search(content_of(Path(path)) or b""):
+    if kind_of(path) != "scene" or _BODY.search(read_whole(path, path, permitted.most)):
         return False
-    scene = _scene(path, ANYWHERE)
+    scene = _scene(path, permitted)
     return bool(scene.rules or scene.body_rules) and not scene.items
 
 
