@@ -102,7 +102,7 @@ def _largest(mesh: Mesh) -> float:
     return max(map(abs, (*low, *high)))
 
 
-def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> MeshFile:
+def shape_file(shape: Shape, path: str) -> MeshFile:
     """The mesh of the shape. path: the scene file that states it.
 
     sha256: of the values of the shape and the number of segments. The sizes are exact float64
@@ -114,10 +114,10 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
             examined = examine(shape.mesh(), orient=False)
         else:
             _require_in_range(shape, path)
-            examined = examine(mesh_of(shape, segments))
+            examined = examine(mesh_of(shape))
     except OverflowError as error:
         raise Refused("out-of-range", str(error), file=path) from None
-    canonical = json.dumps([values_of(shape), segments], sort_keys=True)
+    canonical = json.dumps([values_of(shape), DEFAULT_SEGMENTS], sort_keys=True)
     return MeshFile(
         path=path,
         sha256=hashlib.sha256(canonical.encode()).hexdigest(),

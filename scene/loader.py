@@ -565,6 +565,8 @@ def _links(added: Input) -> Iterator[tuple[str, str]]:
 def _rules(added: Input) -> Iterator[Rule]:
     """The rules of a document about its own items and groups."""
     path, pairs = added.document.path, added.document.pairs
+    if not pairs:
+        return
     ids = dict(zip((item.path or "" for item in added.document.items), added.ids, strict=True))
     for rule in pairs:
         select = Selector.exactly_group if rule.of_groups else Selector.exactly

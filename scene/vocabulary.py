@@ -15,7 +15,6 @@ from fnmatch import fnmatchcase
 from msgspec import Struct
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.issue import Issue, issue
 
 # Two names of which so much is the same are one, misspelt: `colision`, `transfrom`.
 ALIKE = 0.8
@@ -35,33 +34,22 @@ class Names(Struct, frozen=True):
             return True
         return any(fnmatchcase(name, known) for known in self.harmless if "*" in known)
 
-    def unread(
-        self,
-        names: Iterable[str],
-        place: str,
-        *,
-        body: str | None = None,
-        file: str | None = None,
-    ) -> Iterator[Issue]:
-        """Yield an issue that blocks a pass for each name that nobody knows there, once. place:
+    def unread(self, names: Iterable[str], place: str) -> Iterator[str]:
+        """Yield what blocks a pass for each name that nobody knows there, once. place:
         `line 4: <link>`. Raises Refused for a name that is misspelt."""
         for name in dict.fromkeys(names):
-            if self.knows(name):
-                continue
-            self.refuse_misspelt([name], place, body=body, file=file)
-            message = f"{place}: {name} is not read; it may hold or move a body"
-            yield issue("unread", message, body=body, file=file)
+            if not self.knows(name):
+                self.refuse_misspelt([name], place)
+                yield f"{place}: {name} is not read; it may hold or move a body"
 
-    def refuse_misspelt(
-        self, names: Iterable[str], place: str, *, body: str | None = None, file: str | None = None
-    ) -> None:
+    def refuse_misspelt(self, names: Iterable[str], place: str) -> None:
         """Raises Refused for the first name that is misspelt. Where a format lets everybody
         write names of their own, the others are harmless."""
         for name in names:
             near = [] if self.knows(name) else self._near(name)
             if near:
                 message = f"{place}: unknown {name} (did you mean {near[0]}?)"
-                raise Refused("misspelt", message, file=file, body=body)
+                raise Refused("misspelt", message)
 
     def _near(self, name: str) -> list[str]:
         """Return the name that is read and resembles it most. Capitals do not count, and short
@@ -92,8 +80,8 @@ class UnknownNames:
             if key in self._counts:
                 self._counts[key] += 1
                 continue
-            for unread in names.unread([name], place):
-                self.note(key, unread.message)
+            for message in names.unread([name], place):
+                self.note(key, message)
 
     def note(self, key: tuple[str, str], message: str) -> None:
         """Take something that blocks a pass and is no single name. key: what is named once."""
