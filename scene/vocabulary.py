@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
+from functools import cached_property
 
 from msgspec import Struct
 
@@ -20,7 +21,7 @@ from satcheck.scene.errors import Refused
 ALIKE = 0.8
 
 
-class Names(Struct, frozen=True):
+class Names(Struct, frozen=True, dict=True):
     """The names at one place. harmless: why none of them can make, move, hide, reshape or exempt a
     body, by name; `*` in a name stands for any letters. alike: how much of two names is the same
     if one of them is misspelt."""
@@ -29,8 +30,13 @@ class Names(Struct, frozen=True):
     harmless: Mapping[str, str] = {}
     alike: float = ALIKE
 
+    @cached_property
+    def known(self) -> frozenset[str]:
+        """Return the names that block no pass, without those that `*` stands in."""
+        return self.read.union(self.harmless)
+
     def knows(self, name: str) -> bool:
-        if name in self.read or name in self.harmless:
+        if name in self.known:
             return True
         return any(fnmatchcase(name, known) for known in self.harmless if "*" in known)
 
@@ -71,7 +77,7 @@ class UnknownNames:
     def look(self, names: Names, found: Collection[str], kind: str, place: str) -> None:
         """Take the names found at a place. kind: of the place, such as `node`; place: `node 3`.
         Raises Refused for a misspelt name."""
-        if names.read.issuperset(found):
+        if names.known.issuperset(found):
             return
         for name in found:
             if names.knows(name):

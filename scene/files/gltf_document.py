@@ -74,8 +74,8 @@ class Table(Generic[Object]):
         return (self[number] for number in range(len(self)))
 
     def __getitem__(self, number: int) -> Object:
-        given = self._object(number)
-        if number not in self._made:
+        if type(number) is not int or number not in self._made:
+            given = self._object(number)
             self._made[number] = checked(given, self._kind, f"{self._kind.what} {number}")
         return self._made[number]
 
