@@ -213,20 +213,14 @@ def _unused(reading: ReadOptions, files: MeshFiles, robots: Iterable[str]) -> di
     }
 
 
-def load_scene(
-    paths: Sequence[str | Path],
-    *,
-    hashed: bool = True,
-    known: KnownMeshes | None = None,
-    **options: Any,
-) -> Scene:
+def load_scene(paths: Sequence[str | Path], *, hashed: bool = True, **options: Any) -> Scene:
     """Return the scene of these files.
 
     paths: mesh files, robots and scene files in any mix. options: of `LoadOptions`, such as
     `units="mm"` or `split="nodes"`; its `load` says what each kind of file gives, and what is
-    raised. hashed, known: as there.
+    raised. hashed: as there.
     """
-    return LoadOptions(**options).load(paths, hashed=hashed, known=known)
+    return LoadOptions(**options).load(paths, hashed=hashed)
 
 
 def _only(between: Sequence[tuple[str, str]]) -> Iterator[Rule]:
@@ -565,8 +559,6 @@ def _links(added: Input) -> Iterator[tuple[str, str]]:
 def _rules(added: Input) -> Iterator[Rule]:
     """The rules of a document about its own items and groups."""
     path, pairs = added.document.path, added.document.pairs
-    if not pairs:
-        return
     ids = dict(zip((item.path or "" for item in added.document.items), added.ids, strict=True))
     for rule in pairs:
         select = Selector.exactly_group if rule.of_groups else Selector.exactly
