@@ -1,69 +1,95 @@
 """What a scene of many small files costs beside the least that any reader of them could do.
 
-    python -m bench.small_files [--files 5000] [--rounds 9]
+    python -m bench.small_files [--files 5000] [--rounds 9] [--format obj ...] [--named]
 
-Each body has an OBJ file of its own, a box of 12 triangles. The floor does in one loop what cannot
-be left out, and keeps no more than its results: the text of the scene is parsed by `tomllib`, each
-file is looked up, read and hashed, and the C++ readers parse and inspect it. Both take turns in
-every round; the least CPU time of each counts.
+Each body has a file of its own, a prism of 8 to 60 triangles; OBJ, STL, PLY, OFF and GLB take
+turns. --named: the files are named one by one, without a scene. The floor does in one loop what
+cannot be left out, and keeps no more than its results: the text of the scene is parsed by
+`tomllib`, each file is looked up, read and hashed, the C++ readers parse it (of GLB the JSON is
+parsed and the numbers are unpacked), and C++ inspects the mesh. Both take turns in every round; the
+least CPU time of each counts.
 """
 
 from __future__ import annotations
 
 import argparse
 import hashlib
+import json
 import os
 import random
+import struct
 import sys
 import tempfile
 import time
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from bench.comparison.inputs import WRITERS, turned
+from sample_meshes.make import rod
 from satcheck import core
 from satcheck._native import readers
 from satcheck.scene import load_scene
 from satcheck.scene.opening import signature
 
 SCENE = "scene.toml"
-CORNERS = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-QUADS = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
-BODY = '\n[[bodies]]\nid = "b{0}"\nmesh = "m/b{0}.obj"\nposition = {1}\n'
+FORMATS = ("obj", "stl", "ply", "off", "glb")
+BODY = '\n[[bodies]]\nid = "b{0}"\nmesh = "{1}"\nposition = {2}\n'
+PARSERS = {
+    "obj": readers.read_obj,
+    "stl": readers.read_stl,
+    "ply": readers.read_ply,
+    "off": readers.read_off,
+}
 
 
-def write_scene(folder: Path, count: int) -> None:
+def write_scene(folder: Path, count: int, formats: Sequence[str]) -> list[str]:
+    """The names of the files."""
     chance = random.Random(0)
     (folder / "m").mkdir()
     text = 'schema = "satcheck.scene/1"\nunits = "m"\n'
+    names = []
     for k in range(count):
-        sides = [chance.uniform(0.5, 1.5) for _ in range(3)]
-        corners = ([s * c for s, c in zip(sides, at, strict=True)] for at in CORNERS)
-        lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in corners]
-        for a, b, c, d in QUADS:
-            lines += [f"f {a} {b} {c}", f"f {a} {c} {d}"]
-        (folder / "m" / f"b{k}.obj").write_text("\n".join(lines) + "\n")
-        text += BODY.format(k, [chance.uniform(0, 17) for _ in range(3)])
+        ending = formats[k % len(formats)]
+        mesh = rod(chance.uniform(0.2, 0.6), -0.5, chance.uniform(0.0, 0.5), chance.randint(3, 16))
+        mesh = turned(mesh, chance.uniform(0, 6), (0.0, 0.0, 0.0))
+        names.append(f"m/b{k}.{ending}")
+        (folder / names[-1]).write_bytes(WRITERS[ending](mesh))
+        text += BODY.format(k, names[-1], [chance.uniform(0, 60) for _ in range(3)])
     (folder / SCENE).write_text(text)
+    return names
 
 
-def floor() -> list[object]:
+def of_glb(data: bytes) -> tuple[bytes, bytes]:
+    """Vertices and triangles of a file as `sample_meshes.make` writes it."""
+    (length,) = struct.unpack_from("<I", data, 12)
+    points, corners = json.loads(data[20 : 20 + length])["bufferViews"]
+    start = 28 + length
+    middle, end = start + points["byteLength"], start + points["byteLength"] + corners["byteLength"]
+    vertices = readers.unpack_numbers(data[start:middle], "f", 3, 12, 0)
+    assert vertices is not None
+    return vertices, readers.unpack_indices(data[middle:end], "H", 2)[0]
+
+
+def floor(names: Sequence[str] | None) -> list[object]:
+    """names: None: those of the scene."""
+    if names is None:
+        names = [body["mesh"] for body in tomllib.loads(Path(SCENE).read_text())["bodies"]]
     made: list[object] = []
-    for body in tomllib.loads(Path(SCENE).read_text())["bodies"]:
-        status = signature(body["mesh"])
+    for name in names:
+        status = signature(name)
         assert status is not None
-        descriptor = os.open(body["mesh"], os.O_RDONLY)
+        descriptor = os.open(name, os.O_RDONLY)
         data = readers.read_file(descriptor, status[3])
         os.close(descriptor)
-        mesh = readers.read_obj(data)
-        assert isinstance(mesh, readers.MeshData)
-        inspection = core.inspect_bytes(mesh.vertices, mesh.triangles, True)
+        if name.endswith("glb"):
+            inspection = core.inspect_bytes(*of_glb(data), True)
+        else:
+            mesh = PARSERS[name[-3:]](data)
+            assert isinstance(mesh, readers.MeshData)
+            inspection = core.inspect_bytes(mesh.vertices, mesh.triangles, True)
         made.append((hashlib.sha256(data).hexdigest(), inspection))
     return made
-
-
-def loaded() -> object:
-    return load_scene([SCENE])
 
 
 def seconds(run: Callable[[], object]) -> float:
@@ -78,11 +104,20 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--files", type=int, default=5000)
     parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--format", nargs="+", choices=FORMATS, default=FORMATS)
+    parser.add_argument("--named", action="store_true")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        write_scene(Path(folder), given.files)
+        names = write_scene(Path(folder), given.files, given.format)
         os.chdir(folder)
-        rounds = [(seconds(floor), seconds(loaded)) for _ in range(given.rounds)]
+        inputs = names if given.named else [SCENE]
+        rounds = [
+            (
+                seconds(lambda: floor(names if given.named else None)),
+                seconds(lambda: load_scene(inputs)),
+            )
+            for _ in range(given.rounds)
+        ]
         os.chdir("/")
     least, ours = (1e6 * min(each) / given.files for each in zip(*rounds, strict=True))
     sys.stdout.write(f"CPU microseconds for a file: {least:.0f} floor, {ours:.0f} load_scene\n")

@@ -93,9 +93,13 @@ class Inputs(Struct, frozen=True):
     def mesh_files(self, reading: ReadOptions) -> MeshFiles:
         """To read the mesh files of a scene once more, with the options that it has read them
         with."""
-        seconds, megabytes = self._of_file
-        permitted = Permitted(anywhere=True, megabytes=megabytes)
-        return MeshFiles(ReadLimits(seconds, permitted, hashed=False, options=reading))
+        seconds, _ = self._of_file
+        return MeshFiles(ReadLimits(seconds, self.permitted, hashed=False, options=reading))
+
+    @property
+    def permitted(self) -> Permitted:
+        """Return the limit of files that are read before or after a check."""
+        return Permitted(anywhere=True, megabytes=self._of_file[1])
 
     @property
     def has_poses(self) -> bool:
@@ -226,17 +230,17 @@ def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:
     scenes = [path for path in inputs.paths if kind_of(path) == "scene"]
     if inputs.merge or len(scenes) < 2:
         return [inputs.paths]
-    scenes = list(filter(_has_bodies, scenes))
+    scenes = [path for path in scenes if _has_bodies(path, inputs.permitted)]
     if len(scenes) < 2:
         return [inputs.paths]
     others = [path for path in inputs.paths if path not in scenes]
     return [(scene, *others) for scene in scenes]
 
 
-def _has_bodies(scene: str) -> bool:
+def _has_bodies(scene: str, permitted: Permitted) -> bool:
     """A scene file that is wrong counts: the check of its world says why."""
     try:
-        return not is_rules(scene)
+        return not is_rules(scene, permitted)
     except SatcheckError:
         return True
 

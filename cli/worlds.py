@@ -49,6 +49,7 @@ from satcheck.report.report import Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import has_only_rules, read_rules
+from satcheck.scene.opening import STANDARD_INPUT, Permitted
 from satcheck.scene.words import listed
 
 _LIMITS = Limits()
@@ -56,8 +57,6 @@ _LIMITS = Limits()
 _MOST_THREADS = 8
 # What to do where a temporary file of results finds no place.
 _ELSEWHERE = "name another folder in TMPDIR, or a file for the results, -o results.jsonl"
-
-STANDARD_INPUT = "-"
 
 
 def check_worlds(
@@ -217,7 +216,7 @@ def check_options(
     if baseline is not None:
         read_baseline(baseline)
     for path in inputs.rules:
-        read_rules(str(path))
+        read_rules(str(path), inputs.permitted)
     return CheckOptions(
         **asdict(inputs.load_options),
         settings={**options, **inputs.limits},
@@ -287,14 +286,14 @@ def asset_names(inputs: Inputs) -> Assets:
     names: list[str] = []
     for name in inputs.paths:
         names += _standard_input() if name == STANDARD_INPUT else [name]
-    assets = asset_files(filter(None, names), inputs.exclude)
+    assets = asset_files(filter(None, names), inputs.exclude, inputs.permitted)
     if inputs.exclude:
         talk(f"satcheck: --exclude leaves out {counted(assets.excluded, 'file')}")
     rules = {os.path.realpath(path) for path in inputs.rules}
     files = [
         file
         for file in assets.files
-        if os.path.realpath(file) not in rules and not _is_skipped(file)
+        if os.path.realpath(file) not in rules and not _is_skipped(file, inputs.permitted)
     ]
     if not files:
         raise click.UsageError("no file is named: give a folder or files")
@@ -307,10 +306,10 @@ def tell_foreign(worlds: Iterable[World]) -> None:
         talk(f"satcheck: {folder}: no reader knows {counted(len(files), 'file')}: {listed(files)}")
 
 
-def _is_skipped(file: str) -> bool:
+def _is_skipped(file: str, permitted: Permitted) -> bool:
     """Files that only have rules are told, as their rules do not count here."""
     try:
-        skipped = has_only_rules(file)
+        skipped = has_only_rules(file, permitted)
     except SatcheckError:  # the check of this asset says why
         return False
     if skipped:

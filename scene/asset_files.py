@@ -13,7 +13,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import SCENE_SUFFIXES, mesh_reader, reader_of_robot, robots_of
 from satcheck.scene.foreign_formats import is_foreign
-from satcheck.scene.opening import exists, is_folder, size_of
+from satcheck.scene.opening import NOTHING_ELSE, Permitted, exists, is_folder, read_whole
 
 # Most JSON and TOML is something else, unless it holds one of these texts, which begin the names of
 # schemas of any version.
@@ -36,11 +36,13 @@ class Assets(NamedTuple):
 NO_ASSETS = Assets([], [], {})
 
 
-def asset_files(given: Iterable[str], exclude: Sequence[str] = ()) -> Assets:
+def asset_files(
+    given: Iterable[str], exclude: Sequence[str] = (), permitted: Permitted = NOTHING_ELSE
+) -> Assets:
     """Expands the given names into asset files, each once. A file stands for itself. A folder
     stands for all assets at any depth, sorted by name. A pattern (`*`, `**`, `?`, `[...]`) stands
     for its matches. exclude: patterns of names, or of paths from a folder, that are left out of
-    folders and matches.
+    folders and matches. permitted: how large a file may be; a larger one counts.
 
     In folders, names that begin with a dot are left out, and links to folders are followed. A
     folder that cannot be listed stays in the list, and its reader reports why. Raises
@@ -55,7 +57,8 @@ def asset_files(given: Iterable[str], exclude: Sequence[str] = ()) -> Assets:
             folders[name] = None
             unlisted: list[str] = []
             below = list(left_out.others(_below(name, unlisted), name))
-            assets = sorted([*unlisted, *(path for path in below if _is_asset(Path(path)))])
+            readable = (path for path in below if _is_asset(Path(path), permitted))
+            assets = sorted([*unlisted, *readable])
             unread = sorted(filter(is_foreign, below))
             if not assets:
                 raise _no_asset(name, unread, left_out.count)
@@ -96,12 +99,11 @@ class _LeftOut:
         return any(fnmatchcase(name, pattern) for pattern in self._patterns for name in names)
 
 
-def content_of(path: Path) -> bytes | None:
-    """None if the file cannot be read or is not a regular file. Its reader reports why."""
+def content_of(path: Path, permitted: Permitted) -> bytes | None:
+    """None if the file cannot be read. Its reader reports why."""
     try:
-        size_of(path)
-        return path.read_bytes()
-    except (SatcheckError, OSError):
+        return read_whole(str(path), path, permitted.most)
+    except Refused:
         return None
 
 
@@ -158,26 +160,26 @@ def _below(folder: str, unlisted: list[str]) -> Iterator[str]:
             yield from (path.as_posix() for path in paths)
 
 
-def _is_asset(path: Path) -> bool:
+def _is_asset(path: Path, permitted: Permitted) -> bool:
     ending = path.suffix.lower()
     if ending in SCENE_SUFFIXES:
-        return _holds(path, _SCENE_MARKS) or _lacks_schema(path)
+        return _holds(path, _SCENE_MARKS, permitted) or _lacks_schema(path, permitted)
     if robots := robots_of(ending):
         texts = [each.texts for each in robots]
         if None in texts or reader_of_robot(path) is not None:
             return True
-        return any(_holds(path, each) for each in texts if each)
+        return any(_holds(path, each, permitted) for each in texts if each)
     return mesh_reader(ending) is not None
 
 
-def _lacks_schema(path: Path) -> bool:
+def _lacks_schema(path: Path, permitted: Permitted) -> bool:
     """Return whether a file has bodies as a scene does, whose reader then asks for the schema."""
-    if b"bodies" not in (content_of(path) or b""):
+    if b"bodies" not in (content_of(path, permitted) or b""):
         return False
     from satcheck.scene.scene_file.text import SceneText
 
     try:
-        tree = SceneText(str(path), path).document
+        tree = SceneText(str(path), path, permitted.most).document
     except Refused:
         return False
     bodies = tree.get("bodies") if isinstance(tree, dict) else None
@@ -186,9 +188,7 @@ def _lacks_schema(path: Path) -> bool:
     )
 
 
-def _holds(path: Path, marks: tuple[bytes, ...]) -> bool:
+def _holds(path: Path, marks: tuple[bytes, ...], permitted: Permitted) -> bool:
     """Return whether a file holds one of these texts, or cannot be read."""
-    content = content_of(path)
-    # JSON may write a slash with a backslash.
-    plain = None if content is None else content.replace(b"\\/", b"/")
-    return plain is None or any(mark in plain for mark in marks)
+    content = content_of(path, permitted)
+    return content is None or any(mark in content for mark in marks)

@@ -16,7 +16,7 @@ from xml.sax.saxutils import escape
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.files.readers import SCENE_SUFFIXES, readers, robot_endings
-from satcheck.scene.opening import followed
+from satcheck.scene.opening import Permitted, followed
 
 # Files of these endings name no other file with geometry.
 _ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off"))
@@ -32,12 +32,13 @@ class _Repository(NamedTuple):
     changed: set[Path]
 
 
-def changed_since(revision: str, assets: Iterable[str]) -> list[str]:
+def changed_since(revision: str, assets: Iterable[str], permitted: Permitted) -> list[str]:
     """The assets that changed since a revision, that git does not track, or that refer to a changed
     file, directly or through other files (a mesh of a scene, a buffer of a glTF file).
 
     A file refers to another one if it contains the other's name without the folder. The list may
-    therefore include assets that have not changed. Raises SatcheckError (`git`).
+    therefore include assets that have not changed. permitted: how large a file may be whose content
+    is searched. Raises SatcheckError (`git`).
     """
     places = {path: followed(Path(path)) for path in assets}
     tracked: set[Path] = set()
@@ -47,19 +48,20 @@ def changed_since(revision: str, assets: Iterable[str]) -> list[str]:
         tracked |= repository.tracked
         changed |= repository.changed
     changed |= {place for place in places.values() if place not in tracked}
-    changed |= _naming(changed, {path for path in tracked if path.suffix.lower() in _NAMING})
+    naming = {path for path in tracked if path.suffix.lower() in _NAMING}
+    changed |= _naming(changed, naming, permitted)
     # If a link leads to another folder, git lists the link and not the files behind it.
     return [
         path for path, place in places.items() if not changed.isdisjoint((place, *place.parents))
     ]
 
 
-def _naming(changed: set[Path], files: set[Path]) -> set[Path]:
+def _naming(changed: set[Path], files: set[Path], permitted: Permitted) -> set[Path]:
     """Files that refer to a changed file, directly or through other files."""
     names = _Names({path.name for path in changed | files})
     named_by: dict[str, set[Path]] = defaultdict(set)
     for path in files - changed:
-        for name in names.within(content_of(path) or b""):
+        for name in names.within(content_of(path, permitted) or b""):
             named_by[name].add(path)
     naming: set[Path] = set()
     waiting = {path.name for path in changed}

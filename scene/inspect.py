@@ -72,13 +72,14 @@ def mesh_file(
     else:
         examined = examine(mesh, resolution=resolution)
     largest = _largest(examined.mesh)
-    far = far_vertex(raw, examined.mesh, largest)
+    precision = file_resolution(raw, largest)
+    far = far_vertex(raw, examined.mesh, largest, precision)
     said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
     return MeshFile(
         path=file.path,
         sha256=file.sha256,
         format=file.format,
-        resolution=file_resolution(raw, largest),
+        resolution=precision,
         units=raw.units,
         mesh=examined.mesh,
         topology=examined.topology,
@@ -101,7 +102,7 @@ def _largest(mesh: Mesh) -> float:
     return max(map(abs, (*low, *high)))
 
 
-def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> MeshFile:
+def shape_file(shape: Shape, path: str) -> MeshFile:
     """The mesh of the shape. path: the scene file that states it.
 
     sha256: of the values of the shape and the number of segments. The sizes are exact float64
@@ -113,10 +114,10 @@ def shape_file(shape: Shape, path: str, segments: int = DEFAULT_SEGMENTS) -> Mes
             examined = examine(shape.mesh(), orient=False)
         else:
             _require_in_range(shape, path)
-            examined = examine(mesh_of(shape, segments))
+            examined = examine(mesh_of(shape))
     except OverflowError as error:
         raise Refused("out-of-range", str(error), file=path) from None
-    canonical = json.dumps([values_of(shape), segments], sort_keys=True)
+    canonical = json.dumps([values_of(shape), DEFAULT_SEGMENTS], sort_keys=True)
     return MeshFile(
         path=path,
         sha256=hashlib.sha256(canonical.encode()).hexdigest(),
@@ -330,11 +331,11 @@ def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
     return max(_of_the_format(raw, max_coordinate), VERTEX * raw.rounding)
 
 
-def far_vertex(raw: RawMesh, mesh: Mesh, largest: float) -> str | None:
+def far_vertex(raw: RawMesh, mesh: Mesh, largest: float, resolution: float) -> str | None:
     """Names the vertex that sets the precision of a mesh, if most of the others would be known far
     more finely; None: no vertex does. A step of digits, integers or packed data, which is the same
-    everywhere, has no such vertex. That of float64 is too fine to matter. largest: |coordinate|."""
-    resolution = _of_the_format(raw, largest)
+    everywhere, has no such vertex. That of float64 is too fine to matter. largest: |coordinate|.
+    resolution: of the file."""
     if raw.number_format == "float64" or resolution < largest * FLOAT32_STEP:
         return None
     if resolution <= VERTEX * raw.rounding:

@@ -42,12 +42,12 @@ from satcheck.scene.files.readers import (
 from satcheck.scene.issue import BLOCKING, UNUSED_OPTION, Issue, issue
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.opening import (
-    ANYWHERE,
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
     NOTHING_ELSE,
     Permitted,
     name_of,
+    read_whole,
     suffix_of,
 )
 from satcheck.scene.rules import Rule, Selector
@@ -213,20 +213,14 @@ def _unused(reading: ReadOptions, files: MeshFiles, robots: Iterable[str]) -> di
     }
 
 
-def load_scene(
-    paths: Sequence[str | Path],
-    *,
-    hashed: bool = True,
-    known: KnownMeshes | None = None,
-    **options: Any,
-) -> Scene:
+def load_scene(paths: Sequence[str | Path], *, hashed: bool = True, **options: Any) -> Scene:
     """Return the scene of these files.
 
     paths: mesh files, robots and scene files in any mix. options: of `LoadOptions`, such as
     `units="mm"` or `split="nodes"`; its `load` says what each kind of file gives, and what is
-    raised. hashed, known: as there.
+    raised. hashed: as there.
     """
-    return LoadOptions(**options).load(paths, hashed=hashed, known=known)
+    return LoadOptions(**options).load(paths, hashed=hashed)
 
 
 def _only(between: Sequence[tuple[str, str]]) -> Iterator[Rule]:
@@ -308,20 +302,18 @@ def read_rules(path: str, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
     return read_rules_file(path, Path(path), permitted)
 
 
-def is_rules(path: str) -> bool:
+def is_rules(path: str, permitted: Permitted) -> bool:
     """Return whether the input is a scene file without bodies, whose rules apply to all bodies.
     Raises Refused."""
-    return kind_of(path) == "scene" and not _scene(path, ANYWHERE).items
+    return kind_of(path) == "scene" and not _scene(path, permitted).items
 
 
-def has_only_rules(path: str) -> bool:
+def has_only_rules(path: str, permitted: Permitted) -> bool:
     """Return whether the input is a scene file with rules and without bodies. Raises
     Refused."""
-    from satcheck.scene.asset_files import content_of
-
-    if kind_of(path) != "scene" or _BODY.search(content_of(Path(path)) or b""):
+    if kind_of(path) != "scene" or _BODY.search(read_whole(path, path, permitted.most)):
         return False
-    scene = _scene(path, ANYWHERE)
+    scene = _scene(path, permitted)
     return bool(scene.rules or scene.body_rules) and not scene.items
 
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 import codecs
 import hashlib
 import os
+import re
 import stat
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -277,22 +278,22 @@ class Context:
         package: Path | None = None,
         words: str = "the file's folder",
     ) -> None:
-        self.folder = Path(folder)
+        self._folder = os.fspath(folder)
         self.permitted = permitted
         self._package = package
         self._words = words
-        self._start = "" if self.folder == Path() else str(self.folder)
+        self._start = "" if self._folder == os.curdir else self._folder
         self._followed: dict[str, str] = {}  # folder -> the same without links
 
     @cached_property
     def own(self) -> Path:
         """The folder all of whose files it may name, without links."""
-        return followed(self._package or self.folder)
+        return followed(self._package or Path(self._folder))
 
     @cached_property
     def _folders(self) -> tuple[str, ...]:
         # The folder of the file, where a link leads to it, may lie outside of its package.
-        own = (str(self.own), str(followed(self.folder)), *self.permitted.folders)
+        own = (str(self.own), str(followed(Path(self._folder))), *self.permitted.folders)
         return tuple(folder.rstrip(os.sep) + os.sep for folder in own)
 
     def permits(self, place: StrPath) -> bool:
@@ -319,7 +320,7 @@ class Context:
             raise Refused("bad-record", f"the path of {what} holds a NUL character")
         # As `Path` joins them, which takes long.
         is_tidy = "./" not in name and "//" not in name
-        place = os.path.join(self._start, name) if is_tidy else str(self.folder / name)  # noqa: PTH118
+        place = os.path.join(self._start, name) if is_tidy else str(Path(self._folder, name))  # noqa: PTH118
         note(place)
         if not self.permits(place):
             raise self.refusal(what)
@@ -438,6 +439,7 @@ _SIGNATURES = {
     b"ply\n": "a PLY file",
     b"ply\r\n": "a PLY file",
 }
+_MARKS = tuple(_SIGNATURES)
 
 # The words at the start of lines in a text format, without comments.
 _FIRST_WORDS = (
@@ -447,6 +449,7 @@ _FIRST_WORDS = (
     ((b"<?xml", b"<COLLADA"), "an XML file"),
     ((b"{",), "a JSON file"),
 )
+_FIRST_WORD = re.compile(rb"(?:\s*+#[^\r\n]*+)*+\s*+([^\s]++)")  # that is no comment
 _TEXT_HEAD_BYTES = 4096
 _BINARY_PLY = b"\nformat binary"
 
@@ -594,7 +597,7 @@ def _without_mark(data: bytes) -> bytes:
 
 def _other_content(reader: Reader, data: bytes, *, is_stl: bool) -> str | None:
     """What the content is if it is certainly not of this format. is_stl: it is binary STL."""
-    if data.startswith(tuple(_SIGNATURES)):
+    if data.startswith(_MARKS):
         signature = next(filter(data.startswith, _SIGNATURES))
         return None if signature in reader.marks else _SIGNATURES[signature]
     if reader.name == "stl":
@@ -614,8 +617,8 @@ def _other_text(data: bytes) -> str | None:
     is less than 2^24.
     """
     head = data[:_TEXT_HEAD_BYTES]
-    lines = [words for line in head.splitlines() if (words := line.split())]
-    first = next((words[0] for words in lines if not words[0].startswith(b"#")), b"")
+    match = _FIRST_WORD.match(head)
+    first = match[1] if match else b""
     if b"\0" in head or len(data) < _STL_HEADER_BYTES or first.lower() == b"solid":
         return None
     for known, name in _FIRST_WORDS:

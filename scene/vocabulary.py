@@ -11,17 +11,17 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
+from functools import cached_property
 
 from msgspec import Struct
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.issue import Issue, issue
 
 # Two names of which so much is the same are one, misspelt: `colision`, `transfrom`.
 ALIKE = 0.8
 
 
-class Names(Struct, frozen=True):
+class Names(Struct, frozen=True, dict=True):
     """The names at one place. harmless: why none of them can make, move, hide, reshape or exempt a
     body, by name; `*` in a name stands for any letters. alike: how much of two names is the same
     if one of them is misspelt."""
@@ -30,38 +30,32 @@ class Names(Struct, frozen=True):
     harmless: Mapping[str, str] = {}
     alike: float = ALIKE
 
+    @cached_property
+    def known(self) -> frozenset[str]:
+        """Return the names that block no pass, without those that `*` stands in."""
+        return self.read.union(self.harmless)
+
     def knows(self, name: str) -> bool:
-        if name in self.read or name in self.harmless:
+        if name in self.known:
             return True
         return any(fnmatchcase(name, known) for known in self.harmless if "*" in known)
 
-    def unread(
-        self,
-        names: Iterable[str],
-        place: str,
-        *,
-        body: str | None = None,
-        file: str | None = None,
-    ) -> Iterator[Issue]:
-        """Yield an issue that blocks a pass for each name that nobody knows there, once. place:
+    def unread(self, names: Iterable[str], place: str) -> Iterator[str]:
+        """Yield what blocks a pass for each name that nobody knows there, once. place:
         `line 4: <link>`. Raises Refused for a name that is misspelt."""
         for name in dict.fromkeys(names):
-            if self.knows(name):
-                continue
-            self.refuse_misspelt([name], place, body=body, file=file)
-            message = f"{place}: {name} is not read; it may hold or move a body"
-            yield issue("unread", message, body=body, file=file)
+            if not self.knows(name):
+                self.refuse_misspelt([name], place)
+                yield f"{place}: {name} is not read; it may hold or move a body"
 
-    def refuse_misspelt(
-        self, names: Iterable[str], place: str, *, body: str | None = None, file: str | None = None
-    ) -> None:
+    def refuse_misspelt(self, names: Iterable[str], place: str) -> None:
         """Raises Refused for the first name that is misspelt. Where a format lets everybody
         write names of their own, the others are harmless."""
         for name in names:
             near = [] if self.knows(name) else self._near(name)
             if near:
                 message = f"{place}: unknown {name} (did you mean {near[0]}?)"
-                raise Refused("misspelt", message, file=file, body=body)
+                raise Refused("misspelt", message)
 
     def _near(self, name: str) -> list[str]:
         """Return the name that is read and resembles it most. Capitals do not count, and short
@@ -83,15 +77,17 @@ class UnknownNames:
     def look(self, names: Names, found: Collection[str], kind: str, place: str) -> None:
         """Take the names found at a place. kind: of the place, such as `node`; place: `node 3`.
         Raises Refused for a misspelt name."""
-        if names.read.issuperset(found):
+        if names.known.issuperset(found):
             return
         for name in found:
+            if names.knows(name):
+                continue
             key = kind, name
             if key in self._counts:
                 self._counts[key] += 1
                 continue
-            for unread in names.unread([name], place):
-                self.note(key, unread.message)
+            for message in names.unread([name], place):
+                self.note(key, message)
 
     def note(self, key: tuple[str, str], message: str) -> None:
         """Take something that blocks a pass and is no single name. key: what is named once."""

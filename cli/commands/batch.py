@@ -36,7 +36,7 @@ from satcheck.core.plugins import function_at
 from satcheck.scene.asset_files import NO_ASSETS
 from satcheck.scene.changed_assets import changed_since
 from satcheck.scene.files.readers import mesh_reader
-from satcheck.scene.opening import is_folder
+from satcheck.scene.opening import Permitted, is_folder
 
 # What is about one world, or about one report.
 _NOT_HERE = (
@@ -167,7 +167,7 @@ def command(
         if any(map(is_remote, worlds)):
             raise click.UsageError("--changed-since is about files of this machine, not at URLs")
         shared = [*inputs.rules, *filter(None, [baseline, Path(config.file) if config else None])]
-        worlds = _changed(since, worlds, shared)
+        worlds = _changed(since, worlds, shared, inputs.permitted)
     if not quiet:
         tell_foreign(set(worlds).intersection(foreign))
     limits = Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"]))
@@ -203,13 +203,15 @@ def _targets(form: str | None, outputs: Sequence[str]) -> tuple[tuple[Target, ..
     return others, str(results[0]) if results else None
 
 
-def _changed(revision: str, worlds: Sequence[World], shared: Sequence[Path]) -> Sequence[World]:
+def _changed(
+    revision: str, worlds: Sequence[World], shared: Sequence[Path], permitted: Permitted
+) -> Sequence[World]:
     """Return the assets that changed. shared: what these files say of every asset counts."""
-    if new := changed_since(revision, list(map(str, shared))):
+    if new := changed_since(revision, list(map(str, shared)), permitted):
         talk(f"satcheck: {new[0]} changed since {revision}: every asset is checked")
         return worlds
     named = [name for world in worlds for name in world if not is_folder(name)]
-    changed = set(changed_since(revision, named))
+    changed = set(changed_since(revision, named, permitted))
     if not changed:
         talk(f"satcheck: no asset changed since {revision}")
     return [kept for world in worlds if (kept := _kept(world, changed))]

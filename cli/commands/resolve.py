@@ -117,7 +117,8 @@ def command(
 def _refuse_output(inputs: Inputs, moved: Path) -> None:
     """Refuse what cannot be written before any work is done."""
     refuse_early(inputs, moved)
-    bodies = [path for path in inputs.paths if len(inputs.paths) == 1 or not is_rules(path)]
+    paths, permitted = inputs.paths, inputs.permitted
+    bodies = [path for path in paths if len(paths) == 1 or not is_rules(path, permitted)]
     kinds = {kind_of(path) for path in bodies}
     if not (kinds <= {"mesh", "document"} or (kinds == {"scene"} and len(bodies) == 1)):
         raise click.UsageError(

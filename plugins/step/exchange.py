@@ -210,9 +210,7 @@ def _kinds(bare: bytes) -> tuple[Counter[str], list[str]]:
         message = f"the file names {len(missing)} records that it lacks, such as {first}"
         raise Refused("index-out-of-range", message)
     unread = [
-        issue.message
-        for what, names, _, found in listed
-        for issue in names.unread(sorted(found), what)
+        message for what, names, _, found in listed for message in names.unread(sorted(found), what)
     ]
     return kinds, unread
 

@@ -9,7 +9,7 @@ specification.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache, cached_property
+from functools import cached_property
 
 from msgspec.structs import replace
 
@@ -99,7 +99,7 @@ class _Scene:
         self._nodes = document.nodes
         self._meshes = Meshes(document, accessors, work)
         self._copied = 0
-        self._matrix = cache(lambda number: placement_of(self._nodes[number], number))
+        self._matrices: dict[int, Transform | None] = {}
 
     def read(self) -> Document:
         paths = UniqueNames()
@@ -171,6 +171,12 @@ class _Scene:
             name=self._name,
             kind="node",
         )
+
+    def _matrix(self, number: int) -> Transform | None:
+        """The placement of a node in its parent."""
+        if number not in self._matrices:
+            self._matrices[number] = placement_of(self._nodes[number], number)
+        return self._matrices[number]
 
     def _roots(self) -> list[int]:
         """Of the default scene; without scenes, the nodes that are no children."""

@@ -74,8 +74,8 @@ class Table(Generic[Object]):
         return (self[number] for number in range(len(self)))
 
     def __getitem__(self, number: int) -> Object:
-        given = self._object(number)
-        if number not in self._made:
+        if type(number) is not int or number not in self._made:
+            given = self._object(number)
             self._made[number] = checked(given, self._kind, f"{self._kind.what} {number}")
         return self._made[number]
 
@@ -432,20 +432,24 @@ def read_document(data: memoryview, unknown: UnknownNames) -> GltfDocument:
     return document
 
 
+def _refuse(token: str) -> NoReturn:
+    raise Refused("bad-record", f"JSON: {token} is not a number of glTF")
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    values = dict(pairs)
+    if len(values) < len(pairs):
+        twice = next(key for key, count in Counter(k for k, _ in pairs).items() if count > 1)
+        raise Refused("bad-record", f"JSON: the key {twice!r} occurs twice in one object")
+    return values
+
+
+_JSON = json.JSONDecoder(parse_constant=_refuse, object_pairs_hook=_once)
+
+
 def _tree(data: memoryview) -> Any:
-    def refuse(token: str) -> NoReturn:
-        raise Refused("bad-record", f"JSON: {token} is not a number of glTF")
-
-    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        values = dict(pairs)
-        if len(values) < len(pairs):
-            twice = next(key for key, count in Counter(k for k, _ in pairs).items() if count > 1)
-            raise Refused("bad-record", f"JSON: the key {twice!r} occurs twice in one object")
-        return values
-
     try:
-        text = str(data, "utf-8").removeprefix("\ufeff")
-        return json.loads(text, parse_constant=refuse, object_pairs_hook=once)
+        return _JSON.decode(str(data, "utf-8").removeprefix("\ufeff"))
     except UnicodeDecodeError:
         raise Refused("bad-encoding", "the JSON is not UTF-8") from None
     except json.JSONDecodeError as error:

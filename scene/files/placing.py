@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from typing import Generic, TypeVar
 
@@ -51,8 +50,7 @@ def instances(
     """
     refuse_explosion(
         [root for root, _ in roots],
-        lambda key: [(child, 1) for child, _ in children(key)],
-        lambda _: 1,
+        lambda key: [child for child, _ in children(key)],
         lambda key: f"{kind} {name(key)!r}",
     )
     paths = UniqueNames()
@@ -91,42 +89,33 @@ def tidy_name(name: object, otherwise: str) -> str:
 
 
 def refuse_explosion(
-    roots: Iterable[Key],
-    within: Callable[[Key], Iterable[tuple[Key, int]]],
-    size: Callable[[Key], int],
+    roots: Sequence[Key],
+    within: Callable[[Key], Iterable[Key]],
     describe: Callable[[Key], str],
-    most_depth: float = math.inf,
 ) -> None:
     """Counts the elements that references expand to, before any is created.
 
-    Visits each element once. within: the direct children of an element, and how often each occurs.
-    size: its own count, without children. Raises Refused if an element contains itself, is
-    nested too deeply, or expands to too many elements.
+    Visits each element once. within: the direct children of an element. Raises Refused if an
+    element contains itself, or expands to too many elements.
     """
     totals: dict[Key, int] = {}
-    depths: dict[Key, int] = {}
     open_: set[Key] = set()
-    roots = list(roots)
     stack = [(root, False) for root in roots]
     while stack:
         key, closing = stack.pop()
         if closing:
             open_.discard(key)
-            held = list(within(key))
-            total = size(key) + sum(times * totals[child] for child, times in held)
+            total = 1 + sum(totals[child] for child in within(key))
             totals[key] = min(total, limits.MAX_PLACEMENTS + 1)  # 2^100 needs no more digits
-            depths[key] = 1 + max((depths[child] for child, _ in held), default=0)
         elif key in open_:
             raise Refused("reference-cycle", f"{describe(key)} contains itself: a cycle")
         elif key not in totals:
             open_.add(key)
             stack.append((key, True))
-            stack.extend((child, False) for child, _ in within(key))
+            stack.extend((child, False) for child in within(key))
     limits.refuse_many(
         sum(totals[root] for root in roots), "elements that its references expand to"
     )
-    if max((depths[root] for root in roots), default=0) > most_depth:
-        raise Refused("too-large", f"elements are nested deeper than {most_depth}: flatten it")
 
 
 def raw_scene(

@@ -10,7 +10,6 @@ next file gets a new child.
 from __future__ import annotations
 
 import os
-import pickle
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -96,6 +95,8 @@ def read_in_child(
 ) -> Content:
     """Return what a function, "module:name", makes of a file in a child process: an object of this
     kind. Raises Refused."""
+    import pickle  # few checks need a child
+
     directory = str(Path(file.directory).absolute())
     try:
         sent = pickle.dumps((read, replace(file, directory=directory, isolated=True)))
@@ -148,6 +149,8 @@ def _one_line(text: str) -> str:
 
 def serve(message: bytes) -> bytes:
     """Runs in the child process. The answer may be a Refusal."""
+    import pickle
+
     read, file = pickle.loads(message)
     with files_read() as files:
         content = _content(file, read)

@@ -105,8 +105,8 @@ class Slips:
         self, names: Names, name: str, where: str, element: Element, *, moves: bool = False
     ) -> None:
         try:
-            for unread in names.unread([name], where):
-                self.note(unread.code, element, unread.message)
+            for message in names.unread([name], where):
+                self.note("unread", element, message)
         except SatcheckError as error:
             if not moves:
                 raise RefusedElement(

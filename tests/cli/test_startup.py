@@ -55,6 +55,11 @@ def test_a_check_imports_no_large_library(form: str) -> None:
     assert ("rich" in names) == (form == "table")
 
 
+def test_a_file_of_findings_imports_no_large_library(tmp_path: Path) -> None:
+    report = str(tmp_path / "report.json")
+    assert imported("box.obj", "box_pushed.stl", "-o", report, code=1) & HEAVY == set()
+
+
 @pytest.mark.parametrize("option", ["--contacts", "--components", "--volume"])
 def test_figures_import_no_large_library(option: str) -> None:
     """manifold3d and numpy work in a child process."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,6 +11,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene import asset_files as module
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.foreign_formats import is_foreign
+from satcheck.scene.opening import Permitted
 from tests.cli.process import on_posix
 from tests.plugin_marks import needs
 
@@ -74,9 +74,15 @@ def test_files_of_other_programs_with_the_endings_of_sdformat_are_no_assets(
 
 def test_an_unreadable_scene_is_an_asset(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "scene.toml").touch()
-    unreadable: Callable[[Path], None] = lambda _: None  # noqa: E731
-    monkeypatch.setattr(module, "content_of", unreadable)
+    monkeypatch.setattr(module, "content_of", lambda *_: None)
     assert asset_files([str(tmp_path)]).files == [(tmp_path / "scene.toml").as_posix()]
+
+
+def test_a_file_beyond_the_limit_counts_as_its_reader_has_to_refuse_it(tmp_path: Path) -> None:
+    (tmp_path / "a.obj").touch()
+    (tmp_path / "data.json").write_bytes(b" " * 300_000)
+    assert len(asset_files([str(tmp_path)]).files) == 1
+    assert len(asset_files([str(tmp_path)], (), Permitted(megabytes=1)).files) == 2
 
 
 @needs("mjcf")

@@ -11,6 +11,7 @@ import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.changed_assets import changed_since
+from satcheck.scene.opening import NOTHING_ELSE
 from tests.cli.process import on_posix
 
 IDENTITY = ("-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "protocol.file.allow=always")
@@ -30,7 +31,7 @@ def commit(folder: Path, files: dict[str, str]) -> None:
 
 
 def changed(folder: Path, *names: str) -> list[str]:
-    listed = changed_since("HEAD", [str(folder / name) for name in names])
+    listed = changed_since("HEAD", [str(folder / name) for name in names], NOTHING_ELSE)
     return [Path(path).relative_to(folder).as_posix() for path in listed]
 
 
@@ -104,4 +105,4 @@ def test_a_shallow_clone_says_how_to_get_the_revision(tmp_path: Path) -> None:
     git(tmp_path / "full", "commit", "-q", "-a", "-m", "second")
     git(tmp_path, "clone", "-q", "--depth", "1", (tmp_path / "full").as_uri(), "shallow")
     with pytest.raises(SatcheckError, match="git fetch --unshallow"):
-        changed_since("HEAD~1", [str(tmp_path / "shallow" / "a.obj")])
+        changed_since("HEAD~1", [str(tmp_path / "shallow" / "a.obj")], NOTHING_ELSE)

@@ -12,6 +12,7 @@ import pytest
 from satcheck.core import worker
 from satcheck.scene import Scene, load_scene, mesh_files
 from satcheck.scene.files.reading_children import ReadingChildren
+from satcheck.scene.loader import LoadOptions
 from satcheck.scene.mesh_files import KnownMeshes
 from satcheck.scene.opening import files_read
 from tests.cli.process import SAMPLES
@@ -26,7 +27,7 @@ def _settled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 def load(known: KnownMeshes, *names: str) -> Scene:
-    return load_scene(names, known=known)
+    return LoadOptions().load(names, known=known)
 
 
 def mesh(scene: Scene) -> object:
