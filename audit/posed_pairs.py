@@ -1,7 +1,7 @@
 """The pairs of a scene whose robots take many poses: which of them are plainly apart, which overlap
 deeply, which depend on the fill of a hole, and which have to climb the ladder.
 
-The core sorts them without placing a body (`core/native/poses/sift.hpp`).
+The core sorts them without placing a body (`core/native/motion/sift.hpp`).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-#include "poses/clear_ball.hpp"
+#include "motion/clear_ball.hpp"
 
 #include <algorithm>
 

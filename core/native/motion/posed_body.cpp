@@ -1,4 +1,4 @@
-#include "poses/posed_body.hpp"
+#include "motion/posed_body.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 
 #include "convex/support_scan.hpp"
 #include "ladder/geometry.hpp"
-#include "poses/inner_balls.hpp"
+#include "motion/inner_balls.hpp"
 
 namespace satcheck {
 

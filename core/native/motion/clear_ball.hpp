@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "poses/posed_body.hpp"
-#include "poses/posed_surfaces.hpp"
+#include "motion/posed_body.hpp"
+#include "motion/posed_surfaces.hpp"
 
 namespace satcheck {
 

@@ -1,4 +1,4 @@
-#include "poses/inner_balls.hpp"
+#include "motion/inner_balls.hpp"
 
 #include <algorithm>
 #include <cmath>
