@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/closing.hpp"
-#include "motion/clear_ball.hpp"
+#include "motion/balls.hpp"
 #include "motion/posed_surfaces.hpp"
 
 namespace satcheck {

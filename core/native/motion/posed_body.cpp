@@ -6,6 +6,7 @@
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
 #include "mesh/closing.hpp"
+#include "motion/balls.hpp"
 
 namespace satcheck {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "convex/closest_point.hpp"
-#include "motion/clear_ball.hpp"
+#include "motion/balls.hpp"
 #include "motion/open_fill.hpp"
 #include "motion/posed_surfaces.hpp"
 
