@@ -83,7 +83,7 @@ class Moments(Struct, frozen=True):
 
 class JointTravel:
     """around: a ball around each body of the scene, see `ball_around`. pad: how far rounding moves
-    a point. times: of the poses of the path."""
+    a point; body_pad: and a gap there. times: of the poses of the path."""
 
     def __init__(self, scene: Scene, path: JointPath, around: Sequence[Ball]) -> None:
         self._scene, self.path, self.times = scene, path, path.times
@@ -108,6 +108,7 @@ class JointTravel:
         self.at_one = lru_cache(MOMENTS)(lambda t: self.at(np.array([t])))
         self.reach = self._reach()
         self.pad = self._pad()
+        self.body_pad = 3 * self.pad + POSE_ROUNDOFFS * UNIT_ROUNDOFF * self.reach
         self._boxes = self._boxes_of_path()
 
     def moves(self, a: str, b: str) -> bool:
@@ -186,11 +187,15 @@ class JointTravel:
 
     def between(self, at: Moments, half: Numbers, a: str, b: str) -> Numbers:
         """An upper bound of how far two bodies move towards each other in a time `half` before or
-        after each moment, rounding included."""
+        after each moment."""
         only_a, only_b = self.relative(a, b)
         speed_a, _ = self.fastest(at, half, self._place[a], only_a)
         speed_b, _ = self.fastest(at, half, self._place[b], only_b)
-        return (speed_a + speed_b) * half * _ROUNDED_UP + 2 * self.pad
+        return (speed_a + speed_b) * half * _ROUNDED_UP
+
+    def rounding(self, _: str, __: str) -> float:
+        """How far rounding moves a point of one body towards the other."""
+        return 2 * self.body_pad
 
     def fastest(
         self, at: Moments, half: Numbers, body: int, joints: Sequence[int]
@@ -324,7 +329,7 @@ class JointWay:
 
     def pad(self, _: Box) -> float:
         """The largest effect of rounding on a point of the body, and on a gap there."""
-        return 3 * self._travel.pad + POSE_ROUNDOFFS * UNIT_ROUNDOFF * self._travel.reach
+        return self._travel.body_pad
 
     def slack(self, t: float, bounds: Box) -> float:
         """The largest effect of rounding on the rate at which a gap closes."""

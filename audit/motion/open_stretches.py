@@ -17,7 +17,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.audit.motion.moving_pair import OpenStretches, Stretch, holed
+from satcheck.audit.motion.moving_pair import PADS_IN_BAND, OpenStretches, Stretch, holed
 from satcheck.audit.pair import Pair
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 
@@ -69,7 +69,8 @@ def open_stretches(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]
         return [OpenStretches(tuple(pairwise(times.tolist()))) for _ in pairs]
     bodies = {body.id: body for pair in pairs for body in (pair.a, pair.b)}
     ids, posed = list(bodies), PosedPairs(list(bodies.values()), pairs)
-    tolerances = [pair.tolerance for pair in pairs]
+    bands = [touch_band(pair, travel) for pair in pairs]
+    margins = [band + travel.rounding(p.a.id, p.b.id) for p, band in zip(pairs, bands, strict=True)]
     near = [
         (NEAREST if holed(pair) else NEAR) * min(pair.a.diagonal, pair.b.diagonal) for pair in pairs
     ]
@@ -86,7 +87,7 @@ def open_stretches(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]
         steps += part.active.sum(axis=0)
         at = travel.at(0.5 * (part.start + part.end))
         travelled = _travelled(travel, pairs, at, part)
-        codes = posed.sift(travel.matrices(at, ids), travelled + tolerances)
+        codes = posed.sift(travel.matrices(at, ids), travelled + margins)
         hits = np.where(codes == DEEP, part.start[:, None], inf)
         first_hit = np.minimum(first_hit, hits.min(axis=0))
         unproven = part.active & (codes != APART)
@@ -96,11 +97,16 @@ def open_stretches(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]
         if (unproven & worth).any():
             waiting.append(part.halved(unproven & worth))
     ends = set(times.tolist())
-    gaps = (max(pair.tolerance, pair.request.clearance or 0.0) for pair in pairs)
+    gaps = (max(b, p.request.clearance or 0.0) for p, b in zip(pairs, bands, strict=True))
     return [
         OpenStretches(_joined(stretches, ends), asked_of, gap)
         for stretches, asked_of, gap in zip(found, steps.tolist(), gaps, strict=True)
     ]
+
+
+def touch_band(pair: Pair, travel: Travel) -> float:
+    """Return the half width of the touch band of a pair that moves."""
+    return max(pair.tolerance, PADS_IN_BAND * travel.rounding(pair.a.id, pair.b.id))
 
 
 def _travelled(travel: Travel, pairs: Sequence[Pair], at: Any, part: _Intervals) -> Numbers:

@@ -90,20 +90,22 @@ class TrackTravel:
 
     def between(self, at: Numbers, half: Numbers, a: str, b: str) -> Numbers:
         """An upper bound of how far two bodies move towards each other in a time `half` before or
-        after each of these times, rounding included."""
-        speed, rounding = np.zeros(len(at)), 0.0
+        after each of these times."""
+        way = np.zeros(len(at))
         for body in (a, b):
-            track = self._track(body)
-            speeds, pad = self._bounded(body, track)
-            speed += speeds[np.searchsorted(track.times, at, "right") - 1]
-            rounding += pad
-        return speed * half * _ROUNDED_UP + 2 * rounding
+            pieces = np.searchsorted(self._track(body).times, at, "right") - 1
+            with np.errstate(all="ignore"):  # beyond float64 nothing is proven
+                way += self._bounded(body)[0][pieces] * half
+        return way * _ROUNDED_UP
 
-    def _bounded(self, id_: str, track: Track) -> tuple[Numbers, float]:
-        """The speed of a body in each piece of its motion, and how far rounding moves its
-        points."""
+    def rounding(self, a: str, b: str) -> float:
+        """How far rounding moves a point of one body towards the other."""
+        return self._bounded(a)[1] + self._bounded(b)[1]
+
+    def _bounded(self, id_: str) -> tuple[Numbers, float]:
+        """The speed of a body in each piece of its motion, and how far rounding moves a point."""
         if id_ not in self._speeds:
-            body = self._bodies[id_]
+            body, track = self._bodies[id_], self._track(id_)
             speeds = np.array([piece.speed(body.bounds) for piece in track.pieces])
             self._speeds[id_] = speeds, rounding_of(body, track)
         return self._speeds[id_]
