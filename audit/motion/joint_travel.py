@@ -83,7 +83,10 @@ class Moments(Struct, frozen=True):
 
 class JointTravel:
     """around: a ball around each body of the scene, see `ball_around`. pad: how far rounding moves
-    a point; body_pad: and a gap there. times: of the poses of the path."""
+    a point; body_pad: and a gap there. times: of the poses of the path. steady: see
+    `TrackTravel`."""
+
+    steady = False
 
     def __init__(self, scene: Scene, path: JointPath, around: Sequence[Ball]) -> None:
         self._scene, self.path, self.times = scene, path, path.times

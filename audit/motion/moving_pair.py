@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     Ask = Callable[..., core.MotionAnswer]
     Side = tuple[core.Surface | core.Shape, Transform]
-    Way = Track | JointWay
+    Way: TypeAlias = Track | JointWay
 
 
 Stretch = tuple[float, float]

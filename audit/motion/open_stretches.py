@@ -3,7 +3,7 @@
 In the middle of an interval the core proves two bodies apart by more than they travel until its
 ends. Then they are apart in all of the interval. Else the interval is halved, until they travel
 little: a sweep goes through it. Schwarzer, Saha, Latombe (2005), see `joint_travel.py`. All pairs
-are asked at once, whether joints or tracks move their bodies.
+are asked at once, on joints as on tracks.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from itertools import pairwise
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from msgspec import Struct
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from satcheck.audit.motion.joint_travel import JointTravel
     from satcheck.audit.motion.track_travel import TrackTravel
 
-    Travel = TrackTravel | JointTravel
+    Travel: TypeAlias = TrackTravel | JointTravel
 
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -62,11 +62,26 @@ class _Intervals(Struct, frozen=True):
 
 
 def open_stretches(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
-    """Return of each pair when it is not proven farther apart than its tolerance and its clearance:
-    below exact at any time."""
+    """Return of each pair when it is not proven farther apart than its tolerance and its clearance.
+
+    Below exact nothing is asked. Along tracks bodies move steadily, so that the steps of a sweep
+    are longer than most intervals: it goes through all of the motion, unless a body has holes,
+    whose fills a sweep does not see.
+    """
+    asked = [p for p in pairs if p.may("exact") and (holed(p) or not travel.steady)]
+    bisected = _bisected(travel, asked) if asked else ()
+    found = {(p.a.id, p.b.id): own for p, own in zip(asked, bisected, strict=True)}
+    return [found.get((p.a.id, p.b.id)) or _whole(travel, p) for p in pairs]
+
+
+def _whole(travel: Travel, pair: Pair) -> OpenStretches:
+    """Return all pieces of the motion of a pair."""
+    way_a, way_b = travel.ways(pair.a.id, pair.b.id)
+    return OpenStretches(tuple(pairwise(sorted({*way_a.times, *way_b.times}))))
+
+
+def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
     times = travel.times
-    if not pairs or not pairs[0].may("exact"):
-        return [OpenStretches(tuple(pairwise(times.tolist()))) for _ in pairs]
     bodies = {body.id: body for pair in pairs for body in (pair.a, pair.b)}
     ids, posed = list(bodies), PosedPairs(list(bodies.values()), pairs)
     bands = [touch_band(pair, travel) for pair in pairs]
@@ -85,7 +100,7 @@ def open_stretches(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]
             waiting += (part.at(slice(together, None)), part.at(slice(together)))
             continue
         steps += part.active.sum(axis=0)
-        at = travel.at(0.5 * (part.start + part.end))
+        at: Any = travel.at(0.5 * (part.start + part.end))
         travelled = _travelled(travel, pairs, at, part)
         codes = posed.sift(travel.matrices(at, ids), travelled + margins)
         hits = np.where(codes == DEEP, part.start[:, None], inf)

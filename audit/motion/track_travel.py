@@ -28,7 +28,10 @@ _ROUNDED_UP = 1 + 1e-12
 
 
 class TrackTravel:
-    """bodies: all of the scene that can be used. times: the ends of the pieces of all motions."""
+    """bodies: all of the scene that can be used. times: the ends of the pieces of all motions.
+    steady: bodies move steadily in each piece."""
+
+    steady = True
 
     def __init__(self, motions: Sequence[Motion], bodies: Sequence[PlacedBody]) -> None:
         self._motions = tuple(motions)

@@ -95,6 +95,12 @@ class MotionSearch {
     return result_;
   }
 
+  // For two trees of one part each.
+  MotionAnswer run_parts() {
+    visit_parts(0, 0);
+    return result_;
+  }
+
  private:
   using Indices = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -210,7 +216,7 @@ MotionAnswer ask_motion(const MovingBody& a, const Moving& moving_a, const Movin
     return MotionSearch(shape_a, moving_a, SurfaceTree(**surface_b, moving_b), moving_b, question, rounding, work).run();
   }
   return MotionSearch(shape_a, moving_a, ShapeTree(*std::get<const Shape*>(b), moving_b), moving_b, question, rounding,
-                      work).run();
+                      work).run_parts();
 }
 
 }  // namespace satcheck
