@@ -19,7 +19,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck import core
-from satcheck.audit.body import PlacedBody, around_both
+from satcheck.audit.body import around_both
 from satcheck.audit.motion.moving_pair import Posed
 from satcheck.audit.motion.track import ORIGIN, POSE_ROUNDOFFS, RATE_ROUNDOFFS, STANDS, Track
 from satcheck.audit.pair import Pair
@@ -83,7 +83,7 @@ class Moments(Struct, frozen=True):
 
 class JointTravel:
     """around: a ball around each body of the scene, see `ball_around`. pad: how far rounding moves
-    a point; body_pad: and a gap there. times: of the poses of the path. steady: see
+    a point. times: of the poses of the path. steady: see
     `TrackTravel`."""
 
     steady = False
@@ -111,24 +111,15 @@ class JointTravel:
         self.at_one = lru_cache(MOMENTS)(lambda t: self.at(np.array([t])))
         self.reach = self._reach()
         self.pad = self._pad()
-        self.body_pad = 3 * self.pad + POSE_ROUNDOFFS * UNIT_ROUNDOFF * self.reach
         self._boxes = self._boxes_of_path()
 
     def moves(self, a: str, b: str) -> bool:
         """Return whether two bodies move relative to each other."""
         return set(self._above[self._place[a]]) != set(self._above[self._place[b]])
 
-    def is_clear(self, _: str, __: str) -> bool:
-        """Return whether their way must be free of touches."""
-        return False
-
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over the whole path."""
         return around_both(placed, self._boxes.get(body, placed))
-
-    def may_meet(self, _: PlacedBody, __: PlacedBody, ___: float) -> bool:
-        """Nothing but their bounds tells."""
-        return True
 
     def relative(self, a: str, b: str) -> tuple[list[int], list[int]]:
         """The joints that move two bodies in the frame that the joints above both carry."""
@@ -190,15 +181,11 @@ class JointTravel:
 
     def between(self, at: Moments, half: Numbers, a: str, b: str) -> Numbers:
         """An upper bound of how far two bodies move towards each other in a time `half` before or
-        after each moment."""
+        after each moment, rounding included."""
         only_a, only_b = self.relative(a, b)
         speed_a, _ = self.fastest(at, half, self._place[a], only_a)
         speed_b, _ = self.fastest(at, half, self._place[b], only_b)
-        return (speed_a + speed_b) * half * _ROUNDED_UP
-
-    def rounding(self, _: str, __: str) -> float:
-        """How far rounding moves a point of one body towards the other."""
-        return 2 * self.body_pad
+        return (speed_a + speed_b) * half * _ROUNDED_UP + 2 * self.pad
 
     def fastest(
         self, at: Moments, half: Numbers, body: int, joints: Sequence[int]
@@ -332,7 +319,7 @@ class JointWay:
 
     def pad(self, _: Box) -> float:
         """The largest effect of rounding on a point of the body, and on a gap there."""
-        return self._travel.body_pad
+        return 3 * self._travel.pad + POSE_ROUNDOFFS * UNIT_ROUNDOFF * self._travel.reach
 
     def slack(self, t: float, bounds: Box) -> float:
         """The largest effect of rounding on the rate at which a gap closes."""

@@ -13,6 +13,7 @@ from satcheck.audit.body import PlacedBody
 from satcheck.audit.close_pairs import ClosePairs
 from satcheck.audit.motion.open_stretches import open_stretches
 from satcheck.audit.motion.sweep import sweep
+from satcheck.audit.motion.track_travel import TrackTravel
 from satcheck.audit.pair import Moves, Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import ball_around
@@ -32,16 +33,20 @@ class Movers:
     def __init__(self, scene: Scene, bodies: PlacedBodies, planner: Planner) -> None:
         placed = list(bodies.placed.values())
         self._bodies, self._planner, self._motions = bodies, planner, scene.motions
+        self._clear = {id_ for motion in scene.motions if motion.clear for id_ in motion.bodies}
         self._travel: Travel = _travel_of(scene, placed, planner)
 
     def close(self) -> ClosePairs:
         """The pairs that may be as close as they ask, as placed or at some t."""
-        return ClosePairs(self._bodies, self._planner, self._travel.bounds, self._may_meet)
+        travel, bodies, planner = self._travel, self._bodies, self._planner
+        if not isinstance(travel, TrackTravel):
+            return ClosePairs(bodies, planner, travel.bounds)
 
-    def _may_meet(self, i: int, j: int) -> bool:
-        a, b = self._bodies.placed[i], self._bodies.placed[j]
-        limit = self._planner.gap_limit(i, j, a.resolution + b.resolution)
-        return self._travel.may_meet(a, b, limit)
+        def may_meet(i: int, j: int) -> bool:
+            a, b = bodies.placed[i], bodies.placed[j]
+            return travel.may_meet(a, b, planner.gap_limit(i, j, a.resolution + b.resolution))
+
+        return ClosePairs(bodies, planner, travel.bounds, may_meet)
 
     def add_sweeps(self, pairs: Sequence[Pair]) -> None:
         """Gives each pair whose bodies move relative to each other its sweep."""
@@ -49,7 +54,7 @@ class Movers:
         moving = [pair for pair in pairs if travel.moves(pair.a.id, pair.b.id)]
         found = open_stretches(travel, moving)
         for pair, stretches in zip(moving, found, strict=True):
-            clear = travel.is_clear(pair.a.id, pair.b.id)
+            clear = not self._clear.isdisjoint((pair.a.id, pair.b.id))
             pair.moves = Moves(partial(sweep, travel=travel, found=stretches), clear)
 
     def stated(self) -> tuple[StatedMotion, ...]:
@@ -68,8 +73,6 @@ class Movers:
 
 def _travel_of(scene: Scene, placed: Sequence[PlacedBody], planner: Planner) -> Travel:
     if scene.joint_path is None:
-        from satcheck.audit.motion.track_travel import TrackTravel
-
         return TrackTravel(scene.motions, placed)
     from satcheck.audit.motion.joint_travel import JointTravel
 

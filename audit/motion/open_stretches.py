@@ -17,7 +17,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.audit.motion.moving_pair import PADS_IN_BAND, OpenStretches, Stretch, holed
+from satcheck.audit.motion.moving_pair import OpenStretches, Stretch, holed
 from satcheck.audit.pair import Pair
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 
@@ -65,12 +65,16 @@ def open_stretches(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]
     """Return of each pair when it is not proven farther apart than its tolerance and its clearance.
 
     Below exact nothing is asked. Along tracks bodies move steadily, so that the steps of a sweep
-    are longer than most intervals: it goes through all of the motion, unless a body has holes,
-    whose fills a sweep does not see.
+    are longer than most intervals: it goes through all of the motion, unless the bisection keeps a
+    body with holes, whose fills a sweep does not see, apart all the way.
     """
     asked = [p for p in pairs if p.may("exact") and (holed(p) or not travel.steady)]
     bisected = _bisected(travel, asked) if asked else ()
-    found = {(p.a.id, p.b.id): own for p, own in zip(asked, bisected, strict=True)}
+    found = {
+        (p.a.id, p.b.id): own
+        for p, own in zip(asked, bisected, strict=True)
+        if not (travel.steady and own.stretches)
+    }
     return [found.get((p.a.id, p.b.id)) or _whole(travel, p) for p in pairs]
 
 
@@ -84,8 +88,7 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
     times = travel.times
     bodies = {body.id: body for pair in pairs for body in (pair.a, pair.b)}
     ids, posed = list(bodies), PosedPairs(list(bodies.values()), pairs)
-    bands = [touch_band(pair, travel) for pair in pairs]
-    margins = [band + travel.rounding(p.a.id, p.b.id) for p, band in zip(pairs, bands, strict=True)]
+    tolerances = [pair.tolerance for pair in pairs]
     near = [
         (NEAREST if holed(pair) else NEAR) * min(pair.a.diagonal, pair.b.diagonal) for pair in pairs
     ]
@@ -102,7 +105,7 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
         steps += part.active.sum(axis=0)
         at: Any = travel.at(0.5 * (part.start + part.end))
         travelled = _travelled(travel, pairs, at, part)
-        codes = posed.sift(travel.matrices(at, ids), travelled + margins)
+        codes = posed.sift(travel.matrices(at, ids), travelled + tolerances)
         hits = np.where(codes == DEEP, part.start[:, None], inf)
         first_hit = np.minimum(first_hit, hits.min(axis=0))
         unproven = part.active & (codes != APART)
@@ -112,16 +115,11 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
         if (unproven & worth).any():
             waiting.append(part.halved(unproven & worth))
     ends = set(times.tolist())
-    gaps = (max(b, p.request.clearance or 0.0) for p, b in zip(pairs, bands, strict=True))
+    gaps = (max(pair.tolerance, pair.request.clearance or 0.0) for pair in pairs)
     return [
         OpenStretches(_joined(stretches, ends), asked_of, gap)
         for stretches, asked_of, gap in zip(found, steps.tolist(), gaps, strict=True)
     ]
-
-
-def touch_band(pair: Pair, travel: Travel) -> float:
-    """Return the half width of the touch band of a pair that moves."""
-    return max(pair.tolerance, PADS_IN_BAND * travel.rounding(pair.a.id, pair.b.id))
 
 
 def _travelled(travel: Travel, pairs: Sequence[Pair], at: Any, part: _Intervals) -> Numbers:

@@ -11,7 +11,6 @@ from msgspec.structs import replace
 
 from satcheck.audit.motion.impact import Impact, first_impact, impact_point, possible_overlap
 from satcheck.audit.motion.moving_pair import MovingPair, OpenStretches, Posed, Unanswerable, holed
-from satcheck.audit.motion.open_stretches import touch_band
 from satcheck.audit.motion.worst import (
     Worst,
     deepest_pose,
@@ -39,8 +38,7 @@ def sweep(pair: Pair, travel: Travel, found: OpenStretches) -> Sweep:
     except Unanswerable as why:
         return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, found.steps)
     free = Impact(1.0, None, 1.0, gap=found.gap)
-    band = touch_band(pair, travel)
-    return swept(free, band, found.steps, "separated", distance_at_least=found.gap)
+    return swept(free, pair.tolerance, found.steps, "separated", distance_at_least=found.gap)
 
 
 def _require_reach(pair: Pair, travel: Travel) -> None:

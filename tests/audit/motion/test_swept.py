@@ -8,9 +8,8 @@ import math
 import numpy as np
 import pytest
 
-from satcheck.audit.motion.swept_boxes import SweptBoxes, part_times, parts_of
 from satcheck.audit.motion.track import track_of
-from satcheck.audit.motion.track_travel import TrackTravel
+from satcheck.audit.motion.track_travel import SweptBoxes, TrackTravel, part_times, parts_of
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from tests.oracles.random_shapes import random_quaternion
 
