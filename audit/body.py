@@ -71,6 +71,8 @@ def box_escape(a: Box, b: Box) -> tuple[float, Vector]:
 T = TypeVar("T")
 MeshKey = tuple[str, str | int, str | None, bool]
 
+# Of the meshes around and within a curved body in many poses.
+_SEGMENTS = 16
 # Held while a body gets its (still empty) geometry.
 _MAKING = allocate_lock()
 
@@ -209,6 +211,17 @@ def _curved(body: Body) -> CurvedShape | None:
     return curved_shape(body.shape, body.transform)
 
 
+def _posed(body: Body, geometry: core.Geometry) -> core.PosedBody:
+    shape = body.shape
+    if not is_curved(shape):
+        return core.PosedBody(geometry)
+    from satcheck.core.shape_bounds import shape_bounds
+    from satcheck.core.shape_mesh import meshes_beside
+
+    around, within = (core.Geometry(mesh, True) for mesh in meshes_beside(shape, _SEGMENTS))
+    return core.PosedBody(*shape_bounds(shape), around, within)
+
+
 def _checked(body: Body, shared: SharedMesh, surface_tolerance: float) -> Placed:
     from dataclasses import replace
 
@@ -232,6 +245,7 @@ class PlacedBody:
     __slots__ = (
         "_checked",
         "_geometry",
+        "_posed",
         "body",
         "bounds",
         "curved",
@@ -259,6 +273,7 @@ class PlacedBody:
         self.endless = is_half_space(body)
         self.surface_tolerance = _surface_tolerance(body, shared.surface_tolerance)
         self._geometry: core.PlacedGeometry | None = None
+        self._posed: core.PosedBody | None = None
         self._checked: Placed | None = None
 
     @property
@@ -273,9 +288,17 @@ class PlacedBody:
                 )
         return geometry
 
+    @property
+    def posed(self) -> core.PosedBody:
+        """The body as the core sorts it in many poses, made on demand."""
+        posed = self._posed
+        if posed is None:
+            posed = self._posed = _posed(self.body, self.shared.geometry)
+        return posed
+
     def release(self) -> None:
         """Releases the data; they are made again on demand."""
-        self._geometry = self._checked = None
+        self._geometry = self._posed = self._checked = None
 
     @property
     def mesh(self) -> core.Mesh:

@@ -47,7 +47,6 @@ from satcheck.report.verdict import fails, summarise, truncated_of
 from satcheck.scene import Scene
 
 if TYPE_CHECKING:
-    from satcheck.audit.motion.joint_movers import JointMovers
     from satcheck.audit.motion.movers import Movers
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.core.peers import Peers
@@ -99,7 +98,7 @@ def check(
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
     movers = _movers(scene, bodies, planner)
-    close = ClosePairs(bodies, planner) if movers is None else movers.close(bodies, planner)
+    close = ClosePairs(bodies, planner) if movers is None else movers.close()
     pairs, examined, unexamined = _examined(
         bodies, close, planner, movers, progress, keep=cache is not None
     )
@@ -112,7 +111,7 @@ def check(
     regions, region_issues = _regions(scene, bodies, settings)
     of_pairs = [
         *doubtful_sizes(bodies, findings, settings.planar),
-        *(() if movers is None else movers.issues(bodies.ids)),
+        *(() if movers is None else movers.issues()),
         *support_issues,
         *region_issues,
         *(issue for pair in examined for issue in pair.issues),
@@ -189,16 +188,12 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
     return flat_scene(scene, settings.planar, allow_open=settings.allow_open)
 
 
-def _movers(scene: Scene, bodies: PlacedBodies, planner: Planner) -> Movers | JointMovers | None:
-    if scene.joint_path is not None:
-        from satcheck.audit.motion.joint_movers import JointMovers
-
-        return JointMovers(scene, scene.joint_path, bodies, planner)
-    if not scene.motions:
+def _movers(scene: Scene, bodies: PlacedBodies, planner: Planner) -> Movers | None:
+    if scene.joint_path is None and not scene.motions:
         return None
     from satcheck.audit.motion.movers import Movers
 
-    return Movers(scene.motions)
+    return Movers(scene, bodies, planner)
 
 
 def _support(
@@ -232,7 +227,7 @@ def _examined(
     bodies: PlacedBodies,
     close: ClosePairs,
     planner: Planner,
-    movers: Movers | JointMovers | None,
+    movers: Movers | None,
     progress: Progress | None,
     *,
     keep: bool,
@@ -267,7 +262,7 @@ def _examined_together(
     bodies: PlacedBodies,
     close: list[IndexPair],
     planner: Planner,
-    movers: Movers | JointMovers | None,
+    movers: Movers | None,
     progress: Progress,
     *,
     keep: bool,
@@ -286,11 +281,12 @@ def _examined_together(
                 request,
                 meter,
                 peers,
-                None if movers is None else movers.moves(bodies.ids[i], bodies.ids[j]),
                 alone=len(close) == 1 and not keep,
             )
             for (i, j), request in zip(close, requests, strict=True)
         ]
+        if movers is not None:
+            movers.add_sweeps(pairs)
         return examine_pairs(pairs, settings.jobs, progress, keep=keep)
 
 

@@ -1,17 +1,16 @@
 """The pairs of a scene whose robots take many poses: which of them are plainly apart, which overlap
 deeply, which depend on the fill of a hole, and which have to climb the ladder.
 
-The core sorts them without placing a body (`core/native/poses/sift.hpp`).
+The core sorts them without placing a body (`core/native/motion/sift.hpp`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Sequence
 from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
-from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
@@ -20,10 +19,8 @@ from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody, world_bounds
 from satcheck.audit.finding import deep_overlap, open_by_fill
 from satcheck.audit.pair import Pair
-from satcheck.audit.planner import Planner
 from satcheck.core.conventions import Vector
 from satcheck.core.risky_steps import is_careful
-from satcheck.core.shapes import is_curved
 from satcheck.report.judge import Judgement, by_rule
 from satcheck.report.report import SEVERITIES, Finding
 from satcheck.report.request import Request
@@ -39,76 +36,33 @@ if TYPE_CHECKING:
 OPEN, APART, DEEP, UNDECIDED = 0, 1, 2, 3
 # The stretch of the placement of a link differs from pose to pose by less than this factor.
 _TURNED = 1 + 1e-9
-# Of the meshes around and within a curved body.
-_SEGMENTS = 16
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 Numbers = NDArray[np.float64]
 Codes = NDArray[np.uint8]
 
 
-class PosedPair(Struct, frozen=True):
-    """The ids of two bodies, their numbers in `Scene.bodies`, and what is asked about them."""
-
-    ids: tuple[str, str]
-    places: tuple[int, int]
-    request: Request
-
-
 class PosedPairs:
-    """The pairs of a scene that are checked and can be compared, sorted. deep_fails: whether a deep
-    overlap of each is a failure. bodies: as placed in any of the poses; all those of the scene can
-    be used."""
+    """Pairs whose bodies take many poses. bodies: in the order of the matrices, as placed in any of
+    the poses. deep_fails: whether a deep overlap of each pair is a failure."""
 
-    def __init__(self, scene: Scene, bodies: PlacedBodies, planner: Planner) -> None:
-        self._settings = planner.settings
-        number = {id_: k for k, id_ in enumerate(bodies.ids)}
-        numbers = [number[body.id] for body in scene.bodies]
-        self._bodies = [bodies.placed[k] for k in numbers]
-        self._posed = [_posed(body) for body in self._bodies]
-        self._place = {k: row for row, k in enumerate(numbers)}
-        self._placed, self._planner = bodies, planner
-        self.choose(bodies.book.checked_pairs())
-
-    def choose(self, checked: Iterable[tuple[int, int]]) -> None:
-        """Makes these the pairs, by the numbers of their bodies, as far as they can be compared."""
-        bodies, place = self._placed, self._place
-        self.pairs = [
-            PosedPair(
-                (bodies.ids[i], bodies.ids[j]), (place[i], place[j]), self._planner.request(i, j)
-            )
-            for i, j in sorted(checked)
-            if i in place and j in place and bodies.is_comparable(i, j)
-        ]
-        self.deep_fails = np.array([self._deep_fails(pair.request) for pair in self.pairs], bool)
+    def __init__(self, bodies: Sequence[PlacedBody], pairs: Sequence[Pair]) -> None:
+        self._bodies, self.pairs, self._settings = bodies, pairs, pairs[0].settings
+        place = {body.id: k for k, body in enumerate(bodies)}
+        self._places = [(place[pair.a.id], place[pair.b.id]) for pair in pairs]
+        self.deep_fails = np.array([self._deep_fails(pair.request) for pair in pairs], bool)
 
     def _deep_fails(self, request: Request) -> bool:
         severity = by_rule(Judgement("error"), request).severity
         return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
 
-    def around(self) -> list[tuple[Vector, float]]:
-        """A ball that holds each body of the scene, in coordinates of its file, as large as the
-        placement makes it."""
-        balls = (posed.around for posed in self._posed)
-        return [
-            (centre, radius * body.largest_stretch * _TURNED)
-            for (centre, radius), body in zip(balls, self._bodies, strict=True)
-        ]
-
-    def as_placed(self, number: int) -> Pair:
-        """Return a pair as the scene is placed."""
-        pair = self.pairs[number]
-        a, b = (self._bodies[k] for k in pair.places)
-        return Pair(a, b, self._settings, pair.request)
-
     def sift(self, matrices: Numbers, margins: Numbers | None = None) -> Codes:
-        """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: those of `PoseBatch`.
-        margins: of the same shape; pairs are APART only if they are farther apart by this much, and
-        those with NaN stay OPEN."""
+        """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: as those of `PoseBatch`,
+        of all bodies. margins: of the shape of the result; pairs are APART only if they
+        are farther apart by this much, and those with NaN stay OPEN."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
-        for pair in self.pairs:
-            a, b = pair.places
+        for pair, (a, b) in zip(self.pairs, self._places, strict=True):
             tolerance = pair.request.tolerance
             if tolerance is None:
                 deviations = (self._bodies[body].body.file.deviation for body in (a, b))
@@ -121,16 +75,17 @@ class PosedPairs:
             closed = all(self._bodies[body].solid for body in (a, b))
             crossing = inf if never or off or (closed and tolerance > 0) else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
-        codes: Codes = core.sift(self._posed, bounds, matrices, self._settings.jobs, margins)
+        posed = [body.posed for body in self._bodies]
+        codes: Codes = core.sift(posed, bounds, matrices, self._settings.jobs, margins)
         if any(body.endless for body in self._bodies):
             return self._open_beyond_reach(codes, matrices)
         return codes
 
     def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> Codes:
         """Opens pairs with a half space whose block does not stand for it there."""
-        codes, balls = codes.copy(), self.around()
-        for column, pair in enumerate(self.pairs):
-            for floor, other in (pair.places, pair.places[::-1]):
+        codes, balls = codes.copy(), [ball_around(body) for body in self._bodies]
+        for column, places in enumerate(self._places):
+            for floor, other in (places, places[::-1]):
                 if not self._bodies[floor].endless:
                     continue
                 _, reach = reach_in_world(self._bodies[floor].body)
@@ -155,8 +110,9 @@ class PosedPairs:
     ) -> Finding | None:
         """Return the finding of a sorted pair in one of the poses, if the sort proves all of it.
         pair: as placed there."""
-        a, b = self.pairs[number].places
-        sides = self._posed[a], matrices[row, a], self._posed[b], matrices[row, b]
+        a, b = self._places[number]
+        of_a, of_b = self._bodies[a].posed, self._bodies[b].posed
+        sides = of_a, matrices[row, a], of_b, matrices[row, b]
         if code == DEEP and pair.request.by.keys() <= {"overlap", "distance"}:
             return deep_overlap(pair) if core.neither_holds(*sides, pair.tolerance) else None
         hole = core.open_hole(*sides) if code == UNDECIDED else None
@@ -171,8 +127,7 @@ class PosedPairs:
     ) -> list[Pair]:
         """These pairs in one of the poses. Raises ValueError or OverflowError if a body cannot be
         placed there."""
-        asked = [self.pairs[number] for number in numbers]
-        needed = sorted({k for pair in asked for k in pair.places})
+        needed = sorted({k for number in numbers for k in self._places[number]})
         moved = [_moved(self._bodies[k].body, matrices[row, k]) for k in needed]
         bounds = world_bounds(moved, 1)
         placed = {
@@ -180,24 +135,20 @@ class PosedPairs:
             for k, body, box in zip(needed, moved, bounds, strict=True)
         }
         pairs = []
-        for pair in asked:
-            a, b = (placed[k] for k in pair.places)
+        for number in numbers:
+            a, b = (placed[k] for k in self._places[number])
             for floor, other in ((a, b), (b, a)):
                 if floor.endless and not holds(floor.body, other.bounds):
                     raise ValueError(f"{other.id} lies beyond the reach of the half space")
-            pairs.append(Pair(a, b, self._settings, pair.request, meter))
+            pairs.append(Pair(a, b, self._settings, self.pairs[number].request, meter))
         return pairs
 
 
-def _posed(body: PlacedBody) -> core.PosedBody:
-    shape = body.body.shape
-    if body.curved is None or not is_curved(shape):
-        return core.PosedBody(body.shared.geometry)
-    from satcheck.core.shape_bounds import shape_bounds
-    from satcheck.core.shape_mesh import meshes_beside
-
-    around, within = (core.Geometry(mesh, True) for mesh in meshes_beside(shape, _SEGMENTS))
-    return core.PosedBody(*shape_bounds(shape), around, within)
+def ball_around(body: PlacedBody) -> tuple[Vector, float]:
+    """Return a ball that holds a body, in coordinates of its file, as large as the placement makes
+    it."""
+    centre, radius = body.posed.around
+    return centre, radius * body.largest_stretch * _TURNED
 
 
 def _moved(body: Body, rows: Numbers) -> Body:

@@ -16,6 +16,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.bodies import place
 from satcheck.audit.check import DEFAULT_SETTINGS, volume_meter
+from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import PosedPairs, same_way
 from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults
@@ -89,10 +90,12 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     bodies = place(scene, settings, results.cache)
     if not same_way(scene, settings, bodies):
         return None
-    pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
-    sizes = {bodies.ids[k]: size_of(body, None) for k, body in bodies.placed.items()}
+    planner = Planner(settings, bodies.book, scene.composed)
+    pairs = [
+        Pair(bodies.placed[i], bodies.placed[j], settings, planner.request(i, j))
+        for i, j in sorted(bodies.book.checked_pairs())
+    ]
+    sizes = {body.id: size_of(body, None) for body in bodies.placed.values()}
     # A tolerance of the size of a body gets a warning, from the check of its pose.
-    small = all(
-        (p.request.tolerance or 0.0) < min(sizes[id_] for id_ in p.ids) for p in pairs.pairs
-    )
-    return pairs if pairs.pairs and small else None
+    small = all((p.request.tolerance or 0.0) < min(sizes[p.a.id], sizes[p.b.id]) for p in pairs)
+    return PosedPairs(list(bodies.placed.values()), pairs) if pairs and small else None

@@ -154,10 +154,8 @@ class _SortedBatch:
                 failed[row] |= fails(finding, results.settings.fail_on)
                 undecided[row] |= finding.undecided is not None
         for k in np.flatnonzero(((codes == DEEP) | (codes == UNDECIDED)).any(axis=0)).tolist():
-            pair, deep = (
-                results.tally(*self._pairs.pairs[k].ids),
-                np.flatnonzero(codes[:, k] == DEEP),
-            )
+            of, deep = self._pairs.pairs[k], np.flatnonzero(codes[:, k] == DEEP)
+            pair = results.tally(of.a.id, of.b.id)
             if deep.size:
                 first, fails_by = self._batch.first + int(deep[0]), bool(self._pairs.deep_fails[k])
                 pair.count_overlaps(len(deep), first, fails=fails_by)

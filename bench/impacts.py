@@ -30,10 +30,9 @@ from bench.impact_judges import Answer, judge, judge_time
 from bench.impact_pairs import ONE, ImpactPair, Pieces, impact_pairs
 from bench.motions import ADVANCES, Case, by_fcl
 from bench.swept_truth import Point
-from satcheck.audit.motion.sweep import sweep
 from satcheck.report.sweep import Sweep
 from satcheck.scene.motion import Translation
-from tests.audit.motion.pairs import pair_of
+from tests.audit.motion.pairs import pair_of, sweep
 from tests.audit.shapes import Mesh
 
 REPEATS = 3

@@ -35,13 +35,13 @@ from numpy.typing import NDArray
 from bench.impact_judges import OFF, Answer
 from satcheck.audit import Settings
 from satcheck.audit.body import PlacedBody, SharedMesh
-from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import request_for
 from satcheck.core import transform
 from satcheck.scene import load_scene
 from satcheck.scene.motion import Path as MotionPath
 from satcheck.scene.motion import Rotation, Translation
+from tests.audit.motion.pairs import sweep
 
 Mesh = trimesh.Trimesh
 SIZES = (1_000, 20_000)

@@ -19,10 +19,16 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck import core
+from satcheck.audit.body import around_both
+from satcheck.audit.motion.moving_pair import Posed
 from satcheck.audit.motion.track import ORIGIN, POSE_ROUNDOFFS, RATE_ROUNDOFFS, STANDS, Track
+from satcheck.audit.pair import Pair
 from satcheck.audit.vectors import added
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, compose
+from satcheck.report.motions import JointPath as StatedPath
+from satcheck.report.motions import JointWaypoint, StatedMotion
+from satcheck.report.sweep import Place
 from satcheck.scene import Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot import Joint, JointPath
@@ -75,12 +81,16 @@ class Moments(Struct, frozen=True):
     centres: Numbers
 
 
-class Travel:
-    """around: of each body of the scene, see `PosedPairs.around`. pad: how far rounding moves a
-    point. boxes: around the bodies that move, over the whole path."""
+class JointTravel:
+    """around: a ball around each body of the scene, see `ball_around`. pad: how far rounding moves
+    a point. times: of the poses of the path. steady: see
+    `TrackTravel`."""
+
+    steady = False
 
     def __init__(self, scene: Scene, path: JointPath, around: Sequence[Ball]) -> None:
-        self._scene, self.path = scene, path
+        self._scene, self.path, self.times = scene, path, path.times
+        self._place = {body.id: k for k, body in enumerate(scene.bodies)}
         self._centres = np.array([centre for centre, _ in around]).reshape(-1, 3)
         self._radii = [radius for _, radius in around]
         self._joints = [
@@ -101,30 +111,42 @@ class Travel:
         self.at_one = lru_cache(MOMENTS)(lambda t: self.at(np.array([t])))
         self.reach = self._reach()
         self.pad = self._pad()
-        self.boxes = self._boxes()
+        self._boxes = self._boxes_of_path()
 
-    def moves(self, a: int, b: int) -> bool:
-        """Whether two bodies move relative to each other, by their numbers in the scene."""
-        return set(self._above[a]) != set(self._above[b])
+    def moves(self, a: str, b: str) -> bool:
+        """Return whether two bodies move relative to each other."""
+        return set(self._above[self._place[a]]) != set(self._above[self._place[b]])
 
-    def moving(self) -> list[str]:
-        """The bodies that move."""
-        return [b.id for b, above in zip(self._scene.bodies, self._above, strict=True) if above]
+    def bounds(self, body: str, placed: Box) -> Box:
+        """The world box of a body over the whole path."""
+        return around_both(placed, self._boxes.get(body, placed))
 
-    def relative(self, a: int, b: int) -> tuple[list[int], list[int]]:
+    def relative(self, a: str, b: str) -> tuple[list[int], list[int]]:
         """The joints that move two bodies in the frame that the joints above both carry."""
-        of_a, of_b = self._above[a], self._above[b]
+        of_a, of_b = (self._above[self._place[body]] for body in (a, b))
         return [j for j in of_a if j not in of_b], [j for j in of_b if j not in of_a]
 
-    def ways(self, a: int, b: int) -> tuple[Track | JointWay, Track | JointWay]:
+    def ways(self, a: str, b: str) -> tuple[Track | JointWay, Track | JointWay]:
         """The motions of two bodies in that frame."""
         only_a, only_b = self.relative(a, b)
-        framed = len(only_a) < len(self._above[a])
+        framed = len(only_a) < len(self._above[self._place[a]])
         way_a, way_b = (
             JointWay(self, body, joints, framed) if self._above[body] else STANDS
-            for body, joints in ((a, only_a), (b, only_b))
+            for body, joints in ((self._place[a], only_a), (self._place[b], only_b))
         )
         return way_a, way_b
+
+    def posed(self, pair: Pair, t: float) -> Posed:
+        """The pose of both bodies at a time, as a report states it."""
+        mover = pair.a if self._above[self._place[pair.a.id]] else pair.b
+        place = Place(mover.id, "t", t)
+        return Posed((place,), self.path.pose(t), self.path.poses_around(t))
+
+    def stated(self) -> tuple[StatedMotion, ...]:
+        """The path as a report states it."""
+        moving = [b.id for b, above in zip(self._scene.bodies, self._above, strict=True) if above]
+        waypoints = (JointWaypoint(float(t), self.path.pose(t)) for t in self.times)
+        return (StatedPath(tuple(moving), False, tuple(waypoints)),) if moving else ()
 
     def link_pose(self, t: float, body: int) -> Transform:
         """The pose of the link of a body that a joint carries."""
@@ -153,12 +175,16 @@ class Travel:
         centres += linear[..., 3].transpose(1, 0, 2)
         return Moments(matrices, frames, axes, origins, rates, slides, centres)
 
-    def between(self, at: Moments, half: Numbers, a: int, b: int) -> Numbers:
+    def matrices(self, at: Moments, bodies: Sequence[str]) -> Numbers:
+        """The placements of these bodies, shape (moments, bodies, 12)."""
+        return at.matrices.take([self._place[body] for body in bodies], axis=1)
+
+    def between(self, at: Moments, half: Numbers, a: str, b: str) -> Numbers:
         """An upper bound of how far two bodies move towards each other in a time `half` before or
         after each moment, rounding included."""
         only_a, only_b = self.relative(a, b)
-        speed_a, _ = self.fastest(at, half, a, only_a)
-        speed_b, _ = self.fastest(at, half, b, only_b)
+        speed_a, _ = self.fastest(at, half, self._place[a], only_a)
+        speed_b, _ = self.fastest(at, half, self._place[b], only_b)
         return (speed_a + speed_b) * half * _ROUNDED_UP + 2 * self.pad
 
     def fastest(
@@ -194,7 +220,8 @@ class Travel:
         of_body = {id_: chains[link] for id_, link in self._links.items()}
         return [of_body.get(body.id, []) for body in self._scene.bodies]
 
-    def _boxes(self) -> dict[str, Box]:
+    def _boxes_of_path(self) -> dict[str, Box]:
+        """Boxes around the bodies that move, over the whole path."""
         start, end = self.path.times[:-1, None], self.path.times[1:, None]
         shares = (np.arange(PARTS) + 0.5) / PARTS
         at = self.at((start + (end - start) * shares).ravel())
@@ -267,11 +294,10 @@ class JointWay:
 
     moves = True
 
-    def __init__(self, travel: Travel, body: int, joints: Sequence[int], framed: bool) -> None:
+    def __init__(self, travel: JointTravel, body: int, joints: Sequence[int], framed: bool) -> None:
         self._travel, self._body, self._joints, self.framed = travel, body, joints, framed
         self._back = inverse(travel.link_pose(0.0, body))
         self.times: list[float] = travel.path.times.tolist()
-        self._speeds: dict[int, float] = {}
 
     def placement(self, t: float, _: Transform | None) -> Transform:
         """The placement of the body at t."""
@@ -279,14 +305,10 @@ class JointWay:
 
     def fastest(self, t: float, _: Box) -> float:
         """An upper bound of the speed of any point of the body in the piece of t."""
-        piece = min(int(np.searchsorted(self._travel.path.times, t, "right")), len(self.times) - 1)
-        if piece not in self._speeds:
-            start, end = self.times[piece - 1], self.times[piece]
-            at = self._travel.at_one(0.5 * (start + end))
-            half = np.array([0.5 * (end - start) * _ROUNDED_UP])
-            speed = self._travel.fastest(at, half, self._body, self._joints)[0]
-            self._speeds[piece] = float(speed[0])
-        return self._speeds[piece]
+        piece = min(int(np.searchsorted(self._travel.times, t, "right")), len(self.times) - 1)
+        start, end = self.times[piece - 1], self.times[piece]
+        at, half = self._travel.at_one(0.5 * (start + end)), 0.5 * (end - start) * _ROUNDED_UP
+        return float(self._travel.fastest(at, np.array([half]), self._body, self._joints)[0][0])
 
     def velocity(self, t: float) -> Vector | None:
         """Of all points, in the piece of t; None: the body turns."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from itertools import chain, pairwise
-from typing import TYPE_CHECKING
+from bisect import bisect_right
+from itertools import chain
+from typing import TYPE_CHECKING, TypeAlias
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -21,6 +22,7 @@ from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, placed
 from satcheck.report.report import OVERLAPS
 from satcheck.report.request import Request
+from satcheck.report.sweep import Joints, Place
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
@@ -33,10 +35,20 @@ if TYPE_CHECKING:
 
     Ask = Callable[..., core.MotionAnswer]
     Side = tuple[core.Surface | core.Shape, Transform]
-    Way = Track | JointWay
+    Way: TypeAlias = Track | JointWay
 
 
 Stretch = tuple[float, float]
+
+
+class OpenStretches(Struct, frozen=True):
+    """The stretches of t in which a pair may meet, each within one piece of steady motion, and how
+    many intervals were asked. Elsewhere it is farther apart than the gap."""
+
+    stretches: tuple[Stretch, ...]
+    steps: int = 0
+    gap: float = math.inf
+
 
 # The budget and the resolution of a sweep, in steps and shares of t, never in seconds.
 # If a step is shorter than this share of the motion, the bodies count as in contact. The first
@@ -76,27 +88,26 @@ class Obstacle(Struct, frozen=True):
     triangles: tuple[int, int] | None = None
 
 
+class Posed(Struct, frozen=True):
+    """The pose of both bodies at a time, as a report states it; see `Sweep`."""
+
+    at: tuple[Place, ...]
+    joints: Joints | None = None
+    poses: tuple[int, int] | None = None
+
+
 class MovingPair:
     """World frame. tolerance: half width of the touch band, at least the rounding of poses. pad:
-    the rounding of a gap. stretches: times between which the bodies may meet, each within one piece
-    of steady motion; elsewhere they are farther apart than free_gap. framed: the frame of both
-    bodies turns in the world. hulls_apart: whether the hulls alone have answered all queries so
-    far. Raises Unanswerable if the rounding would make the band wide for bodies of this size.
+    the rounding of a gap. framed: the frame of both bodies turns in the world. hulls_apart: whether
+    the hulls alone have answered all queries so far. Raises Unanswerable if the rounding would make
+    the band wide for bodies of this size.
     """
 
-    def __init__(
-        self,
-        pair: Pair,
-        way_a: Way,
-        way_b: Way,
-        stretches: Sequence[Stretch] | None = None,
-        free_gap: float = math.inf,
-    ) -> None:
+    def __init__(self, pair: Pair, way_a: Way, way_b: Way, found: OpenStretches) -> None:
         self.pair = pair
         self._sides = (pair.a, way_a), (pair.b, way_b)
         self.framed = way_a.framed or way_b.framed
-        self.pad = sum(way.pad(body.bounds) + _placing(body, way) for body, way in self._sides)
-        self.pad += sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
+        self.pad = sum(rounding_of(body, way) for body, way in self._sides)
         rounding = PADS_IN_BAND * self.pad
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
         if not rounding <= max(pair.tolerance, TOUCH_FRACTION * size):
@@ -105,18 +116,27 @@ class MovingPair:
             )
         self.tolerance = max(pair.tolerance, rounding)
         self.times = sorted({*way_a.times, *way_b.times})
-        self.stretches = list(pairwise(self.times)) if stretches is None else list(stretches)
-        self.free_gap = free_gap
-        self._most_steps = STEPS + STEPS_A_PIECE * (len(self.times) - 2)
+        self.stretches, self.free_gap, self.steps = found.stretches, found.gap, found.steps
+        self._most_steps = found.steps + STEPS + STEPS_A_PIECE * (len(self.times) - 2)
         self.convex = all(body.curved is not None or body.convex for body in (pair.a, pair.b))
+        self._known: dict[int, tuple[float, float]] = {}  # of pieces
         self.hulls_apart = True
-        self.steps = 0
         self.visits = 0
 
     def fastest(self, t: float) -> float:
         """An upper bound of the speed of a point of A relative to B, in the piece of t, per unit of
         t."""
-        return sum(way.fastest(t, body.bounds) for body, way in self._sides)
+        return self._rates(t)[0]
+
+    def _rates(self, t: float) -> tuple[float, float]:
+        """That bound, and the largest effect of rounding on the rate at which a gap closes."""
+        piece = bisect_right(self.times, t)
+        if piece not in self._known:
+            self._known[piece] = (
+                sum(way.fastest(t, body.bounds) for body, way in self._sides),
+                sum(way.slack(t, body.bounds) for body, way in self._sides),
+            )
+        return self._known[piece]
 
     def shortest_step(self, t: float) -> float:
         """The share of the motion down to which times are told apart, in the piece of t."""
@@ -219,8 +239,7 @@ class MovingPair:
         span = bounds.get("limit", bounds.get("window", 0.0))
         moving_a = way_a.moving_at(t, span, offset, frame_a)
         moving_b = way_b.moving_at(t, span, ORIGIN, frame_b)
-        slack = sum(way.slack(t, body.bounds) for body, way in self._sides)
-        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=slack, **bounds)
+        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._rates(t)[1], **bounds)
 
 
 def holed(pair: Pair) -> list[str]:
@@ -248,6 +267,12 @@ def _shape_of(body: PlacedBody) -> Side:
         return body.hull_shape(), IDENTITY
     turn = tuple(chain.from_iterable(rows_of(body.curved.turn)))
     return body.curved.shape, placed(turn, body.curved.centre)
+
+
+def rounding_of(body: PlacedBody, way: Way) -> float:
+    """Return how far rounding may move a point of a body on its way, world units."""
+    slack = 0.0 if body.curved is None else body.curved.slack
+    return way.pad(body.bounds) + _placing(body, way) + slack
 
 
 def _placing(body: PlacedBody, way: Way) -> float:

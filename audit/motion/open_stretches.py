@@ -1,38 +1,45 @@
-"""When bodies of robots on a path of joints may meet, by bisection of t.
+"""When moving bodies may meet, by bisection of t.
 
 In the middle of an interval the core proves two bodies apart by more than they travel until its
 ends. Then they are apart in all of the interval. Else the interval is halved, until they travel
 little: a sweep goes through it. Schwarzer, Saha, Latombe (2005), see `joint_travel.py`. All pairs
-are asked at once.
+are asked at once, on joints as on tracks.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from itertools import pairwise
 from math import inf
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.audit.motion.joint_travel import Moments, Numbers, Travel
-from satcheck.audit.motion.moving_pair import Stretch
+from satcheck.audit.motion.moving_pair import OpenStretches, Stretch, holed
+from satcheck.audit.pair import Pair
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 
+if TYPE_CHECKING:
+    from satcheck.audit.motion.joint_travel import JointTravel
+    from satcheck.audit.motion.track_travel import TrackTravel
+
+    Travel: TypeAlias = TrackTravel | JointTravel
+
+Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# Poses that the core takes at a time.
+# Poses that the core takes at a time, and placements and pairs in all of them.
 TOGETHER = 4096
+ENTRIES = 2**22
+# Travels, as shares of the smaller body, at which an interval is left to a sweep, and for bodies
+# with holes, whose fills a sweep does not see.
+NEAR = 1 / 256
+NEAREST = 2.0**-20
 # The most intervals of one pair, and so many for each piece of the path.
 INTERVALS = 16
 INTERVALS_A_PIECE = 8
-
-
-class OpenStretches(Struct, frozen=True):
-    """The stretches of t in which a pair is not proven apart, and how many intervals were asked."""
-
-    stretches: tuple[Stretch, ...]
-    steps: int
 
 
 class _Intervals(Struct, frozen=True):
@@ -54,25 +61,51 @@ class _Intervals(Struct, frozen=True):
         return _Intervals(starts.T.ravel(), ends.T.ravel(), np.repeat(active[rows], 2, axis=0))
 
 
-def open_stretches(
-    travel: Travel, pairs: PosedPairs, tolerances: Sequence[float], near: Sequence[float]
-) -> list[OpenStretches]:
+def open_stretches(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
     """Return of each pair when it is not proven farther apart than its tolerance and its clearance.
-    near: the travel at which an interval of a pair is not halved."""
-    times = travel.path.times
+
+    Below exact nothing is asked. Along tracks bodies move steadily, so that the steps of a sweep
+    are longer than most intervals: it goes through all of the motion, unless the bisection keeps a
+    body with holes, whose fills a sweep does not see, apart all the way.
+    """
+    asked = [p for p in pairs if p.may("exact") and (holed(p) or not travel.steady)]
+    bisected = _bisected(travel, asked) if asked else ()
+    found = {
+        (p.a.id, p.b.id): own
+        for p, own in zip(asked, bisected, strict=True)
+        if not (travel.steady and own.stretches)
+    }
+    return [found.get((p.a.id, p.b.id)) or _whole(travel, p) for p in pairs]
+
+
+def _whole(travel: Travel, pair: Pair) -> OpenStretches:
+    """Return all pieces of the motion of a pair."""
+    way_a, way_b = travel.ways(pair.a.id, pair.b.id)
+    return OpenStretches(tuple(pairwise(sorted({*way_a.times, *way_b.times}))))
+
+
+def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
+    times = travel.times
+    bodies = {body.id: body for pair in pairs for body in (pair.a, pair.b)}
+    ids, posed = list(bodies), PosedPairs(list(bodies.values()), pairs)
+    tolerances = [pair.tolerance for pair in pairs]
+    near = [
+        (NEAREST if holed(pair) else NEAR) * min(pair.a.diagonal, pair.b.diagonal) for pair in pairs
+    ]
+    together = max(min(TOGETHER, ENTRIES // (len(ids) + len(pairs))), 1)
     most = INTERVALS + INTERVALS_A_PIECE * (len(times) - 1)
-    found: list[list[Stretch]] = [[] for _ in pairs.pairs]
+    found: list[list[Stretch]] = [[] for _ in pairs]
     steps, first_hit = np.zeros(len(found), int), np.full(len(found), inf)
     waiting = [_Intervals(times[:-1], times[1:], np.ones((len(times) - 1, len(found)), bool))]
     while waiting:
         part = waiting.pop()
-        if len(part.start) > TOGETHER:
-            waiting += (part.at(slice(TOGETHER, None)), part.at(slice(TOGETHER)))
+        if len(part.start) > together:
+            waiting += (part.at(slice(together, None)), part.at(slice(together)))
             continue
         steps += part.active.sum(axis=0)
-        at = travel.at(0.5 * (part.start + part.end))
+        at: Any = travel.at(0.5 * (part.start + part.end))
         travelled = _travelled(travel, pairs, at, part)
-        codes = pairs.sift(at.matrices, travelled + tolerances)
+        codes = posed.sift(travel.matrices(at, ids), travelled + tolerances)
         hits = np.where(codes == DEEP, part.start[:, None], inf)
         first_hit = np.minimum(first_hit, hits.min(axis=0))
         unproven = part.active & (codes != APART)
@@ -82,18 +115,19 @@ def open_stretches(
         if (unproven & worth).any():
             waiting.append(part.halved(unproven & worth))
     ends = set(times.tolist())
+    gaps = (max(pair.tolerance, pair.request.clearance or 0.0) for pair in pairs)
     return [
-        OpenStretches(_joined(stretches, ends), asked_of)
-        for stretches, asked_of in zip(found, steps.tolist(), strict=True)
+        OpenStretches(_joined(stretches, ends), asked_of, gap)
+        for stretches, asked_of, gap in zip(found, steps.tolist(), gaps, strict=True)
     ]
 
 
-def _travelled(travel: Travel, pairs: PosedPairs, at: Moments, part: _Intervals) -> Numbers:
+def _travelled(travel: Travel, pairs: Sequence[Pair], at: Any, part: _Intervals) -> Numbers:
     """Return how far each pair travels from the middle of each interval to its ends, NaN where it
     is not asked."""
     travelled, half = np.full(part.active.shape, np.nan), 0.5 * (part.end - part.start)
     for k in np.flatnonzero(part.active.any(axis=0)).tolist():
-        own = travel.between(at, half, *pairs.pairs[k].places)
+        own = travel.between(at, half, pairs[k].a.id, pairs[k].b.id)
         travelled[:, k] = np.where(part.active[:, k], own, np.nan)
     return travelled
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
-from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.motion.impact import Impact, first_impact, impact_point, possible_overlap
-from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, holed
-from satcheck.audit.motion.track import STANDS, Track, track_of
+from satcheck.audit.motion.moving_pair import MovingPair, OpenStretches, Posed, Unanswerable, holed
 from satcheck.audit.motion.worst import (
     Worst,
     deepest_pose,
@@ -19,39 +18,33 @@ from satcheck.audit.motion.worst import (
     least_hull_distance,
 )
 from satcheck.audit.pair import Pair
-from satcheck.report.sweep import Joints, Place, Sweep, SweptRelation, WorstPose
-from satcheck.scene.motion import Path, Rotation, Translation
+from satcheck.report.sweep import Sweep, SweptRelation, WorstPose
+from satcheck.scene.half_spaces import holds
 
-
-class Posed(Struct, frozen=True):
-    """The pose of both bodies at a time, as a report states it; see `Sweep`."""
-
-    at: tuple[Place, ...]
-    joints: Joints | None = None
-    poses: tuple[int, int] | None = None
-
+if TYPE_CHECKING:
+    from satcheck.audit.motion.open_stretches import Travel
 
 Poses = Callable[[float], Posed]
 
 
-def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
-    """path_a, path_b: the motions of the bodies; None: at rest. The bodies must not share a path,
-    because then they do not move relative to each other.
-    """
-
-    def posed(t: float) -> Posed:
-        paths = ((pair.a.id, path_a), (pair.b.id, path_b))
-        return Posed(tuple(_place(body, path, t) for body, path in paths if path is not None))
-
+def sweep(pair: Pair, travel: Travel, found: OpenStretches) -> Sweep:
+    """Return the sweep of a pair through the stretches of t in which it may meet."""
     try:
-        moving = MovingPair(pair, _track(path_a), _track(path_b))
+        if found.stretches:
+            _require_reach(pair, travel)
+            ways = travel.ways(pair.a.id, pair.b.id)
+            moving = MovingPair(pair, *ways, found)
+            return swept_along(moving, partial(travel.posed, pair))
     except Unanswerable as why:
-        return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, 0)
-    return swept_along(moving, posed)
+        return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, found.steps)
+    free = Impact(1.0, None, 1.0, gap=found.gap)
+    return swept(free, pair.tolerance, found.steps, "separated", distance_at_least=found.gap)
 
 
-def _track(path: Path | None) -> Track:
-    return STANDS if path is None else track_of(path)
+def _require_reach(pair: Pair, travel: Travel) -> None:
+    for floor, other in ((pair.a, pair.b), (pair.b, pair.a)):
+        if floor.endless and not holds(floor.body, travel.bounds(other.id, other.bounds)):
+            raise Unanswerable(f"{other.id} moves beyond the reach of the half space")
 
 
 def swept_along(moving: MovingPair, posed: Poses) -> Sweep:
@@ -179,11 +172,3 @@ def _nearest(pair: MovingPair, impact: Impact) -> Worst | None:
     except Unanswerable:
         return None
     return None if gap is None else Worst(contact, 0.0, max(gap, 0.0))
-
-
-def _place(body: str, path: Path, t: float) -> Place:
-    if isinstance(path, Rotation):
-        return Place(body, "degrees", path.degrees * t)
-    if isinstance(path, Translation):
-        return Place(body, "length", math.hypot(*path.vector) * t)
-    return Place(body, "t", t)

@@ -97,15 +97,22 @@ class Piece(Struct, frozen=True):
         rate = math.radians(self.degrees) / (self.end - self.start)
         return self.axis[0] * rate, self.axis[1] * rate, self.axis[2] * rate
 
+    def radius(self, bounds: Box) -> float:
+        """The distance of the farthest corner from the pivot, rounded."""
+        return max(math.dist(corner, self.pivot) for corner in corners(bounds))
+
     def reach(self, bounds: Box) -> float:
         """A bound of the coordinates of the body, its pivot and its centre, and of their sum, world
         units. bounds: of the body as placed."""
-        radius = max(math.dist(corner, self.pivot) for corner in corners(bounds))
         farthest = max(math.hypot(*end) for end in (self.centre, self.centre_at(self.end)))
-        return (radius + math.hypot(*self.pivot) + farthest) * (1 + 8 * UNIT_ROUNDOFF)
+        return (self.radius(bounds) + math.hypot(*self.pivot) + farthest) * (1 + 8 * UNIT_ROUNDOFF)
+
+    def speed(self, bounds: Box) -> float:
+        """An upper bound of the speed of any point of the body, world units per unit of t."""
+        return math.hypot(*self.velocity) + math.hypot(*self.spin) * self.radius(bounds)
 
     def fastest(self, bounds: Box) -> float:
-        """An upper bound of the speed of any point of the body, world units per unit of t."""
+        """One that also bounds what rounds with the coordinates."""
         return math.hypot(*self.velocity) + math.hypot(*self.spin) * self.reach(bounds)
 
     def slack(self, bounds: Box) -> float:

@@ -13,7 +13,8 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
-from satcheck.audit.bodies import place
+from satcheck.audit.bodies import PlacedBodies, place
+from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.samples import check_poses
@@ -128,10 +129,19 @@ def test_flags(tmp_path: Path) -> None:
     compare(scene, Settings(depth=False, tolerance=0.1, surface_tolerance=0.02), 15)
 
 
+def posed_pairs(scene: Scene, bodies: PlacedBodies, settings: Settings) -> PosedPairs:
+    planner, placed = Planner(settings, bodies.book, scene.composed), bodies.placed
+    pairs = [
+        Pair(placed[i], placed[j], settings, planner.request(i, j))
+        for i, j in sorted(bodies.book.checked_pairs())
+    ]
+    return PosedPairs(list(placed.values()), pairs)
+
+
 def sorted_and_decided(scene: Scene, count: int, seed: int) -> Counter[tuple[int, str]]:
     """How many pairs the core sorts so, and a check of the pose decides so."""
     bodies = place(scene, QUICK)
-    pairs = PosedPairs(scene, bodies, Planner(QUICK, bodies.book, scene.composed))
+    pairs = posed_pairs(scene, bodies, QUICK)
     poses = RandomPoses([robot.robot for robot in scene.robots], count, seed)
     seen: Counter[tuple[int, str]] = Counter()
     for batch in pose_batches(scene, poses, 10):
@@ -140,7 +150,7 @@ def sorted_and_decided(scene: Scene, count: int, seed: int) -> Counter[tuple[int
             report = check(posed(scene, batch.pose(row)), QUICK)
             relations = {(f.a, f.b): f.relation for f in report.findings}
             for code, pair in zip(codes[row], pairs.pairs, strict=True):
-                seen[int(code), relations.get(pair.ids, "separated")] += 1
+                seen[int(code), relations.get((pair.a.id, pair.b.id), "separated")] += 1
     return seen
 
 
@@ -185,7 +195,7 @@ def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
     pose = {"slide": (1.5 - math.sqrt(0.5) + 0.011,)}
     assert [f.relation for f in check(posed(scene, pose), settings).findings] == ["touching"]
     bodies = place(scene, settings)
-    pairs = PosedPairs(scene, bodies, Planner(settings, bodies.book, scene.composed))
+    pairs = posed_pairs(scene, bodies, settings)
     (batch,) = pose_batches(scene, [pose], 1)
     assert pairs.sift(batch.matrices).tolist() == [[OPEN]]
 

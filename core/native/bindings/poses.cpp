@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "bindings/tuples.hpp"
-#include "poses/sift.hpp"
+#include "motion/sift.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

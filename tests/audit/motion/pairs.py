@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 from satcheck.audit.body import PlacedBody, SharedMesh
-from satcheck.audit.motion.moving_pair import MovingPair
+from satcheck.audit.motion.moving_pair import MovingPair, OpenStretches
+from satcheck.audit.motion.open_stretches import open_stretches
+from satcheck.audit.motion.sweep import sweep as swept
 from satcheck.audit.motion.track import STANDS, track_of
+from satcheck.audit.motion.track_travel import TrackTravel
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import request_for
 from satcheck.audit.settings import Settings
 from satcheck.core import Mesh
+from satcheck.report.sweep import Sweep
+from satcheck.scene.motion import Motion
 from satcheck.scene.motion import Path as MotionPath
 from tests.audit.shapes import Mesh as Lists
 from tests.audit.shapes import scene_of
@@ -37,7 +43,18 @@ def moving(
     **settings: object,
 ) -> MovingPair:
     tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
-    return MovingPair(pair_of(a, b, **settings), tracks[0], tracks[1])
+    pieces = sorted({*tracks[0].times, *tracks[1].times})
+    whole = OpenStretches(tuple(pairwise(pieces)))
+    return MovingPair(pair_of(a, b, **settings), tracks[0], tracks[1], whole)
+
+
+def sweep(pair: Pair, path_a: MotionPath | None, path_b: MotionPath | None) -> Sweep:
+    """None: the body is at rest."""
+    paths = ((pair.a, path_a), (pair.b, path_b))
+    motions = [Motion((body.id,), path) for body, path in paths if path is not None]
+    travel = TrackTravel(motions, [pair.a, pair.b])
+    (found,) = open_stretches(travel, [pair])
+    return swept(pair, travel, found)
 
 
 def hull_of(points: Sequence[Sequence[float]]) -> Lists:

@@ -9,9 +9,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.motion.sweep import sweep
 from satcheck.scene.motion import Rotation, Translation
-from tests.audit.motion.pairs import pair_of
+from tests.audit.motion.pairs import pair_of, sweep
 from tests.audit.motion.slots import channel
 from tests.audit.shapes import box, bracket, moved, open_box, unit_box, write
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from satcheck.audit.motion.joint_travel import Travel
+from satcheck.audit.motion.joint_travel import JointTravel
 from satcheck.scene import load_scene
 from satcheck.scene.robot import with_joint_path
 from tests.scene.robot.robots import joint, link, robot_of
@@ -56,7 +56,7 @@ def test_no_point_is_faster_than_its_bounds(
     )
     placed = with_joint_path(scene, [start, end])
     assert placed.joint_path is not None
-    travel = Travel(placed, placed.joint_path, [((0.0, 0.0, 0.0), RADIUS)] * 4)
+    travel = JointTravel(placed, placed.joint_path, [((0.0, 0.0, 0.0), RADIUS)] * 4)
     corners = np.array(
         [[x, y, z, 1] for x in (-0.2, 0.2) for y in (-0.1, 0.1) for z in (-0.3, 0.3)]
     )
@@ -73,14 +73,15 @@ def test_no_point_is_faster_than_its_bounds(
         moved = np.diff(seen, axis=0) / STEP
         assert np.linalg.norm(moved, axis=1).max() <= speed
         assert np.linalg.norm(np.diff(moved, axis=0) / STEP, axis=1).max() <= acceleration + 1e-6
-        assert travel.ways(frame, 3)[1].fastest(0.5, NOWHERE) >= np.linalg.norm(moved, axis=1).max()
+        _, way = travel.ways(f"l{frame}", "l3")
+        assert way.fastest(0.5, NOWHERE) >= np.linalg.norm(moved, axis=1).max()
 
 
 def test_rounding_grows_with_the_distance_of_a_mesh_from_its_link(tmp_path: Path) -> None:
     scene = load_scene([chain(tmp_path, ("revolute",))])
     path = with_joint_path(scene, [{"j0": (0.0,)}, {"j0": (1.0,)}]).joint_path
     assert path is not None
-    near, far = (Travel(scene, path, [((x, 0.0, 0.0), RADIUS)] * 2) for x in (0.0, 1e6))
+    near, far = (JointTravel(scene, path, [((x, 0.0, 0.0), RADIUS)] * 2) for x in (0.0, 1e6))
     assert near.reach < 100
     assert far.reach >= 1e6
     assert far.pad >= 1e4 * near.pad

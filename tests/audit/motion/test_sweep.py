@@ -6,10 +6,10 @@ import math
 
 import pytest
 
-from satcheck.audit.motion import moving_pair, sweep, worst
+from satcheck.audit.motion import moving_pair, worst
 from satcheck.audit.motion.moving_pair import STEPS
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
-from tests.audit.motion.pairs import pair_of
+from tests.audit.motion.pairs import pair_of, sweep
 from tests.audit.shapes import box, bracket, moved, open_box, unit_box
 
 ORIGIN = (0.0, 0.0, 0.0)
@@ -151,6 +151,14 @@ def test_a_million_turns_end():
     found = swept(square, Rotation(ORIGIN, Z, 3.6e8), wall, Rotation((9.0, 0.0, 0.0), Z, 1e-9))
     assert (found.relation, found.steps) == ("indeterminate", STEPS + 1)
     assert found.reason.startswith("the budget of the sweep was spent")
+
+
+def test_a_body_with_a_hole_is_decided_where_no_fill_can_be_met():
+    """It stays in the notch, within the hull of the bracket."""
+    cup = moved(open_box(1.0), 2.2, 2.2, 1.0)
+    found = swept(cup, Translation((0.3, 0.3, 0.0)), bracket())
+    assert (found.relation, found.reason) == ("separated", None)
+    assert found.distance_at_least > 0.0
 
 
 @pytest.mark.parametrize("scale", [2.0**-100, 2.0**-20, 1.0, 2.0**60])

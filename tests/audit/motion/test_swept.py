@@ -8,8 +8,8 @@ import math
 import numpy as np
 import pytest
 
-from satcheck.audit.motion.movers import Movers, SweptBoxes, part_times, parts_of
 from satcheck.audit.motion.track import track_of
+from satcheck.audit.motion.track_travel import SweptBoxes, TrackTravel, part_times, parts_of
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from tests.oracles.random_shapes import random_quaternion
 
@@ -87,7 +87,7 @@ def test_a_translation_is_boxed_tightly():
 
 def test_where_it_was_placed_counts_too():
     far = PosePath((Waypoint(0.0, (50.0, 0.0, 0.0)), Waypoint(1.0, (60.0, 0.0, 0.0))))
-    low, high = Movers([Motion(("a",), far)]).bounds("a", BOUNDS)
+    low, high = TrackTravel([Motion(("a",), far)], []).bounds("a", BOUNDS)
     assert low == pytest.approx(BOUNDS[0], abs=1e-11)
     assert high == pytest.approx((63.0, *BOUNDS[1][1:]), abs=1e-11)
     near_the_place = ((0.0, 0.0, 0.0), (2.0, 1.0, 1.0))

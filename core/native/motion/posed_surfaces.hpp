@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "poses/posed_body.hpp"
+#include "motion/posed_body.hpp"
 
 namespace satcheck {
 

@@ -1,6 +1,6 @@
 // The walk over both trees: S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree: A Hierarchical Structure for Rapid
 // Interference Detection" (1996), with the boxes of both files.
-#include "poses/posed_surfaces.hpp"
+#include "motion/posed_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>

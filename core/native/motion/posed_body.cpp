@@ -1,4 +1,4 @@
-#include "poses/posed_body.hpp"
+#include "motion/posed_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
 #include "mesh/closing.hpp"
+#include "motion/balls.hpp"
 
 namespace satcheck {
 namespace {

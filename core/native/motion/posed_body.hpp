@@ -9,9 +9,13 @@
 
 #include "convex/support_scan.hpp"
 #include "ladder/geometry.hpp"
-#include "poses/inner_balls.hpp"
 
 namespace satcheck {
+
+struct Ball {
+  Vec3 centre;
+  double radius = 0;
+};
 
 // How an affine placement changes lengths: by a factor between the two, rounding included. least is 0 if nothing is
 // known.

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "mesh_pair/mesh_pair.hpp"
-#include "poses/posed_body.hpp"
+#include "motion/posed_body.hpp"
 
 namespace satcheck {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mesh_pair/mesh_pair.hpp"
-#include "poses/posed_body.hpp"
+#include "motion/posed_body.hpp"
 
 namespace satcheck {
 

@@ -1,15 +1,15 @@
 // Separating axes: GJK on the difference of the two hulls (E. G. Gilbert, D. W. Johnson, S. S. Keerthi, 1988), from the
 // axis that separated the pair in the pose before. Every axis on the way may be the proof, so most pairs take one step.
-#include "poses/sift.hpp"
+#include "motion/sift.hpp"
 
 #include <cmath>
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
 #include "convex/closest_point.hpp"
-#include "poses/clear_ball.hpp"
-#include "poses/open_fill.hpp"
-#include "poses/posed_surfaces.hpp"
+#include "motion/balls.hpp"
+#include "motion/open_fill.hpp"
+#include "motion/posed_surfaces.hpp"
 
 namespace satcheck {
 namespace {

@@ -1,13 +1,24 @@
-// A ball that a closed surface does not enter, so that it lies inside or outside as a whole.
+// Balls beside the surface of a body: two bodies have every point in common that lies in a ball in each.
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "poses/posed_body.hpp"
-#include "poses/posed_surfaces.hpp"
+#include "motion/posed_body.hpp"
+#include "motion/posed_surfaces.hpp"
 
 namespace satcheck {
 
+// Some balls within a closed surface, the largest first. They touch it nowhere.
+std::vector<Ball> balls_inside(const Surface& closed);
+
+// Whether two balls have a ball with a radius of more than `depth` in common.
+bool overlap(const Ball& p, const Ball& q, double depth);
+
+// Whether one of the first and one of the second do.
+bool any_overlap(const std::vector<Ball>& p, const std::vector<Ball>& q, double depth);
+
+// A ball that a closed surface does not enter, so that it lies inside or outside as a whole.
 struct ClearBall {
   Ball ball;  // in the world
   bool inside;

@@ -1,11 +1,11 @@
-#include "poses/open_fill.hpp"
+#include "motion/open_fill.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "mesh/closing.hpp"
-#include "poses/clear_ball.hpp"
-#include "poses/posed_surfaces.hpp"
+#include "motion/balls.hpp"
+#include "motion/posed_surfaces.hpp"
 
 namespace satcheck {
 namespace {
