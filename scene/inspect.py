@@ -19,7 +19,15 @@ from functools import partial
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes, with_cracks_closed
+from satcheck.core import (
+    Inspection,
+    Mesh,
+    TooManySteps,
+    Topology,
+    inspect,
+    inspect_bytes,
+    with_cracks_closed,
+)
 from satcheck.core.conventions import LARGEST_LENGTH, SMALLEST_SIZE
 from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_health import MeshHealth
@@ -45,6 +53,9 @@ def errors_of(path: str) -> Iterator[None]:
         yield
     except SatcheckError as error:
         raise Refused(error.code, error.message, file=path) from error.__cause__
+    except TooManySteps as error:
+        message = "a mesh meets itself in so many places that inspecting it takes too many steps"
+        raise Refused("too-many-steps", message, file=path) from error
     except MemoryError as error:
         not_for_lack_of_memory(error)
         raise Refused("reader-out-of-memory", "out of memory", file=path) from error

@@ -66,6 +66,7 @@ _ALL = (
     Code("empty-mesh", "error", "The mesh has no triangles."),
     Code("no-body", "error", "The file has no geometry that is checked."),
     Code("only-degenerate", "error", "Every triangle of the mesh has area 0."),
+    Code("too-many-steps", "error", "Inspecting the mesh takes more steps than a mesh may."),
     Code("singular-transform", "error", "A transform flattens the body, or is not affine."),
     Code("short-face", "warning", "A face with fewer than 3 vertices was ignored."),
     Code("unknown-statement", "warning", "A line without geometry is unknown to the format."),

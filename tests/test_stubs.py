@@ -6,6 +6,7 @@ import-linter sees no compiled module, so the arrows to it are checked here.
 from __future__ import annotations
 
 import ast
+import builtins
 import importlib
 from pathlib import Path
 
@@ -37,7 +38,10 @@ def public(thing: object) -> set[str]:
 def inherited(classes: dict[str, ast.ClassDef], name: str) -> set[str]:
     """Public attributes of a class of the stub, those of its bases included."""
     bases = [base.id for base in classes[name].bases if isinstance(base, ast.Name)]
-    above = [inherited(classes, base) for base in bases if base in classes]
+    above = [
+        inherited(classes, base) if base in classes else public(getattr(builtins, base))
+        for base in bases
+    ]
     return declared(classes[name].body).union(*above)
 
 

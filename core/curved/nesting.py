@@ -27,6 +27,7 @@ from satcheck.core.shapes import (
     Ellipsoid,
     Primitive,
     Sphere,
+    half_sizes,
     support,
 )
 
@@ -44,6 +45,8 @@ class Nesting(Struct, frozen=True):
 
 def nesting(a: Body, b: Body) -> Nesting:
     """The nesting of two overlapping convex bodies, of which at least one is curved."""
+    if (translated := _between_translates(a, b)) is not None:
+        return translated
     forth, back = _holds(a, b), _holds(b, a)
     exact = forth is None or back is None
     if exact:
@@ -53,6 +56,18 @@ def nesting(a: Body, b: Body) -> Nesting:
     if forth or back:
         return Nesting("contains" if forth else "inside", True, exact)
     return Nesting("penetrating", forth is False and back is False, exact)
+
+
+def _between_translates(a: Body, b: Body) -> Nesting | None:
+    """Return the nesting of two shapes of which a translation takes one to the other, exactly:
+    neither contains the other, but they may coincide. None for other bodies."""
+    if a.curved is None or b.curved is None:
+        return None
+    of_a, of_b = a.curved.image, b.curved.image
+    if of_a.primitive != of_b.primitive or of_a.columns != of_b.columns:
+        return None
+    coincide = of_a.origin == of_b.origin
+    return Nesting("penetrating", not coincide, coincide)
 
 
 def _holds(outer: Body, inner: Body) -> bool | None:
@@ -78,10 +93,24 @@ def shape_holds(curved: CurvedShape, other: Body) -> bool | None:
     inner = other.curved
     if inner is None:
         return _all_within(curved, np.asarray(other.mesh.vertices))
+    ball = _radius_around(inner.primitive) * (1 + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF)
+    if _all_within(curved, np.array([inner.centre]), ball + inner.slack):
+        return True
     outside = _turned(np.asarray(mesh_around(inner.primitive).vertices), inner.turn)
     if _all_within(curved, outside + np.array(inner.centre), inner.slack):
         return True
     return False if _all_within(curved, np.asarray(other.mesh.vertices)) is False else None
+
+
+def _radius_around(primitive: Primitive) -> float:
+    """Return the radius of a ball about the centre that the shape lies in."""
+    across, along, up = half_sizes(primitive)
+    match primitive:
+        case Ellipsoid():
+            return max(across, along, up)
+        case Sphere() | Capsule():
+            return up + across
+    return math.hypot(across, up)
 
 
 def _turned(points: Floats, quaternion: Quaternion) -> Floats:

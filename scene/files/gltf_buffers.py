@@ -202,6 +202,9 @@ class Accessors:
         if accessor.buffer_view != NONE:
             values = self._rows(accessor, what, count, columns, code)
         else:
+            if count > limits.MAX_WITHOUT_DATA:
+                most = f"{limits.MAX_WITHOUT_DATA} elements without data"
+                raise Refused("too-large", f"{what} has {count}, and may have {most}")
             self._make(count * row, f"{what}, which has no data")
             values = array(code, [0]) * (count * columns)
         if accessor.sparse:

@@ -11,6 +11,7 @@ BYTES_PER_MEGABYTE = 1 << 20
 MAX_PLACEMENTS = 1_000_000
 MAX_TRIANGLES = 50_000_000
 MAX_VERTICES = 3 * MAX_TRIANGLES
+MAX_WITHOUT_DATA = 1_000_000  # elements of accessors of glTF that the file does not hold
 MAX_DEPTH = 200  # of elements in XML and keys in TOML; no program nests deeper
 
 # Our own code reads glTF and checks every range. Its JSON can cost a few tens of times its size.

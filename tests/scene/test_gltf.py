@@ -84,6 +84,19 @@ def test_sparse_positions_without_a_view_start_at_zero(tmp_path):
     assert loaded(tmp_path, "a.glb", document.glb()).health.volume == 1.0
 
 
+def test_few_bytes_do_not_make_a_mesh_of_millions_of_vertices(tmp_path):
+    document = Document()
+    accessor = document.json["accessors"][0]
+    del accessor["bufferView"]
+    accessor["count"] = 1_000_001
+    accessor["sparse"] = {
+        "count": 1,
+        "indices": {"bufferView": document.view(bytes(1)), "componentType": 5121},
+        "values": {"bufferView": document.view(bytes(12))},
+    }
+    assert refusal(tmp_path, "a.glb", document.glb())[0] == "too-large"
+
+
 @pytest.mark.parametrize(
     ("place", "code"), [(8, "index-out-of-range"), (2**16 - 1, "index-out-of-range")]
 )

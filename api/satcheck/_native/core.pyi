@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 Point = tuple[float, float, float]
 
+class TooManySteps(RuntimeError): ...
+
 class Topology:
     @property
     def vertices(self) -> int: ...

@@ -1,7 +1,7 @@
 // The steps that a query spends, each about a nanosecond, and its progress. The code counts steps and does not use a
 // clock, so the same query has the same count on every machine. The query makes its budget and hands it to all that it
-// calls. What is made once and kept, as the closing of a surface, is charged to nobody: asked again, a query costs the
-// same.
+// calls. What is made once and kept, as the closing of a surface, has a budget of its own: asked again, a query costs
+// the same.
 #pragma once
 
 #include <algorithm>
@@ -26,13 +26,16 @@ struct BudgetSpent : std::runtime_error {
   BudgetSpent() : std::runtime_error("the query takes more steps than it may") {}
 };
 
+// The most steps of a query, or of making what is kept, unless less is said. About ten seconds.
+inline constexpr std::uint64_t kMostSteps = 10'000'000'000;
+
 class Budget {
  public:
   Budget() = default;  // without an end
   explicit Budget(std::uint64_t end, Poll poll = {}) : end_(end), poll_(std::move(poll)) {}
 
   // For a query that has no interval and so no good place to stop: spend() polls, and throws BudgetSpent at the end.
-  static Budget that_stops(std::uint64_t end, Poll poll) {
+  static Budget that_stops(std::uint64_t end, Poll poll = {}) {
     Budget budget(end, std::move(poll));
     budget.stop_at_ = std::min(end, kPollWork);
     return budget;
@@ -52,12 +55,14 @@ class Budget {
   bool is_due() const { return poll_ && spent_ >= next_; }
   void tell(double lower, double upper) {
     next_ = spent_ + kPollWork;
-    told_ = {lower, upper, spent_};
+    note(lower, upper);
     poll_(told_);
   }
-  // The same interval as before, during a part of the search that has its own budget.
-  void tell_again() const {
-    if (poll_) poll_(told_);
+  // The interval for those calls of tell_again() that follow.
+  void note(double lower, double upper) { told_ = {lower, upper, spent_}; }
+  // The interval as it was, during a part of the search that has its own budget, of which it has spent `steps`.
+  void tell_again(std::uint64_t steps) const {
+    if (poll_) poll_({told_.lower, told_.upper, spent_ + steps});
   }
 
  private:

@@ -255,7 +255,7 @@ failed, and climb() raises for this pair.)");
           const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method));
           const Rung from = rung_from(first), to = rung_from(last);
           const nb::gil_scoped_release release;
-          return climb(request, from, to, [](const SearchState&) { raise_interrupts(); });
+          return climb(request, from, to, interrupting());
         },
         "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto",
         "One pair of Climbing, from the rung `first` on.");

@@ -22,6 +22,11 @@ inline void raise_interrupts() {
   if (signalled()) throw nanobind::python_error();
 }
 
+// For a query whose progress nobody sees.
+inline Poll interrupting() {
+  return [](const SearchState&) { raise_interrupts(); };
+}
+
 // Called with the interval so far, and with the share of the work that is spent; may be empty.
 using Progress = std::function<void(double lower, double upper, double share)>;
 

@@ -16,6 +16,7 @@
 #include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 #include "bindings/arguments.hpp"
+#include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
 #include "convex/convex_hull.hpp"
 #include "mesh/convexity.hpp"
@@ -115,11 +116,11 @@ Inspection inspect_bytes(const nb::typed<nb::object, Bytes>& given_vertices, con
     return reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(Vec3) == 0 && bytes.size() > 0;
   };
   const bool is_whole = vertices.size() % sizeof(Vec3) == 0 && triangles.size() % sizeof(Triangle) == 0;
-  if (!in_place || !is_whole || !is_aligned(vertices) || !is_aligned(triangles)) return inspect(mesh_from_bytes(vertices, triangles), orient);
+  if (!in_place || !is_whole || !is_aligned(vertices) || !is_aligned(triangles)) return inspect(mesh_from_bytes(vertices, triangles), orient, interrupting());
   const MeshView mesh({reinterpret_cast<const Vec3*>(vertices.data()), vertices.size() / sizeof(Vec3)},
                       {reinterpret_cast<const Triangle*>(triangles.data()), triangles.size() / sizeof(Triangle)});
   require_valid(mesh);
-  return inspect(mesh, orient);
+  return inspect(mesh, orient, interrupting());
 }
 
 nb::tuple mesh_to_bytes(const Mesh& mesh) {
@@ -178,9 +179,14 @@ the winding. ValueError when the matrix is not affine or singular, OverflowError
            [](const Mesh& mesh, const Tuple3& offset) { return translate(mesh, to_vec3(offset)); },
            "offset"_a, ReleaseGil())
       .def("topology", &measure_topology, ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
-      .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding for each component, and the outermost closed shells outward. Copies of a triangle are
+      .def("oriented",
+           [](const Mesh& mesh) {
+             Budget budget = Budget::that_stops(kMostSteps, interrupting());
+             return orient(mesh, &budget);
+           },
+           ReleaseGil(), R"(Welded, with one winding for each component, and the outermost closed shells outward. Copies of a triangle are
 dropped if that closes the surface.)")
-      .def("components", &split_components, "crack_width"_a = 0.0, ReleaseGil(), R"(The edge-connected parts, in order of their
+      .def("components", [](const Mesh& mesh, double width) { return split_components(mesh, width, interrupting()); }, "crack_width"_a = 0.0, ReleaseGil(), R"(The edge-connected parts, in order of their
 first triangle. The wall of a cavity belongs to the solid around it. crack_width: points this close may be the same point;
 edges along such a crack count as shared.)")
       .def("is_flat", [](const Mesh& mesh) { return is_flat(mesh); }, ReleaseGil(), "Whether all vertices lie in one plane, exactly. True if no triangle has an area.")
@@ -190,8 +196,18 @@ edges along such a crack count as shared.)")
              return std::make_tuple(to_tuple(far.at), far.median);
            },
            ReleaseGil(), "The vertex with the largest |coordinate|, and the median of that of all vertices; needs no numpy.")
-      .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
-      .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are
+      .def("convex_hull",
+           [](const Mesh& mesh) {
+             Budget budget = Budget::that_stops(kMostSteps, interrupting());
+             return convex_hull(mesh.vertices, &budget);
+           },
+           ReleaseGil())
+      .def("convexity_defect",
+           [](const Mesh& mesh, double limit) {
+             Budget budget = Budget::that_stops(kMostSteps, interrupting());
+             return convexity_defect(mesh, limit, &budget);
+           },
+           "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are
 equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");
 }
 
@@ -263,11 +279,13 @@ changed the mesh. cracks: the number of closed cracks. topology: before these re
                    })
       .def_ro("topology", &Inspection::topology)
       .def_ro("repaired", &Inspection::repaired);
-  m.def("inspect", [](const Mesh& mesh, bool orient) { return inspect(mesh, orient); }, "mesh"_a, "orient"_a, ReleaseGil(),
+  m.def("inspect", [](const Mesh& mesh, bool orient) { return inspect(mesh, orient, interrupting()); }, "mesh"_a, "orient"_a, ReleaseGil(),
         "mesh.welded().sorted() and its topology; with `orient` also oriented().");
   m.def("inspect_bytes", &inspect_bytes, "vertices"_a, "triangles"_a, "orient"_a,
         "inspect(Mesh.from_bytes(vertices, triangles), orient), but faster than both calls.");
-  m.def("with_cracks_closed", &with_cracks_closed, "inspection"_a, "orient"_a, "width"_a, ReleaseGil(),
+  m.def("with_cracks_closed",
+        [](const Inspection& inspection, bool orient, double width) { return with_cracks_closed(inspection, orient, width, interrupting()); },
+        "inspection"_a, "orient"_a, "width"_a, ReleaseGil(),
         R"(The inspection with cracks closed: gaps between neighbouring faces that are at most `width` wide, file units.
 Triangles are added; none is changed.)");
 }

@@ -9,6 +9,7 @@
 
 #include <stdexcept>
 
+#include "base/budget.hpp"
 #include "base/large_pages.hpp"
 #include "bindings/arguments.hpp"
 #include "bindings/tuples.hpp"
@@ -141,6 +142,7 @@ beyond 1e45 or the points are less than 1e-45 across: nothing is proven there.)"
 }  // namespace
 
 void satcheck::bind_core(nb::module_& m) {
+  nb::exception<BudgetSpent>(m, "TooManySteps", PyExc_RuntimeError);
   bind_mesh(m);
   bind_surface(m);
   bind_broad_phase(m);

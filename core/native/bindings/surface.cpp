@@ -123,7 +123,7 @@ that of the surfaces without fills. decided: False if that takes more steps than
       .def_ro("triangle_tests", &MeshRelation::triangle_tests)
       .def_ro("edge_tests", &MeshRelation::edge_tests, "Of the outlines of prisms; None for other bodies.");
   m.def("mesh_relation",
-        [](const Surface& a, const Surface& b) { return mesh_relation(a, b, [](const SearchState&) { raise_interrupts(); }); },
+        [](const Surface& a, const Surface& b) { return mesh_relation(a, b, interrupting()); },
         "a"_a, "b"_a, ReleaseGil(),
         R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
 "touching", "penetrating" (interiors overlap, or a surface crosses a sheet), "contains" (b strictly inside a),
@@ -139,7 +139,11 @@ void bind_mesh_distance(nb::module_& m) {
       .def_prop_ro("witness_b", [](const MeshDistance& d) { return to_tuple(d.witness_b); })
       .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
-  m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) { return mesh_distance(a, b, limit); }, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
+  m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) {
+          Budget budget = Budget::that_stops(kMostSteps, interrupting());
+          return mesh_distance(a, b, limit, {}, &budget);
+        },
+        "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
         R"(The least distance of two surfaces in float64, with witness points; inf if it exceeds `limit`. A body inside
 another also has a distance from its surface, so call mesh_relation first.)");
   m.def("compare_gap",

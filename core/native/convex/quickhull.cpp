@@ -49,11 +49,13 @@ class Builder {
 
   std::vector<Triangle> build(std::array<std::uint32_t, 4> simplex) {
     start(simplex);
+    pay();
     for (std::uint32_t f = 0; f < facets_.size(); ++f) {
       // Facets are only appended, so one pass sees every conflict list.
-      if (facets_[f].alive && facets_[f].first_above != none) add_point(f);
+      if (!facets_[f].alive || facets_[f].first_above == none) continue;
+      add_point(f);
+      pay();
     }
-    spend(budget_, kFacetWork * facets_.size() + kHeightWork * heights_);
     std::vector<Triangle> triangles;
     for (const Facet& facet : facets_) {
       if (facet.alive) triangles.push_back(facet.corner);
@@ -185,6 +187,13 @@ class Builder {
     }
   }
 
+  // For what was made since the last payment.
+  void pay() {
+    spend(budget_, kFacetWork * (facets_.size() - paid_facets_) + kHeightWork * heights_);
+    paid_facets_ = facets_.size();
+    heights_ = 0;
+  }
+
   const std::vector<Vec3>& points_;
   Budget* budget_;
   std::vector<Facet> facets_;
@@ -193,6 +202,7 @@ class Builder {
   std::vector<std::uint32_t> visible_;
   std::vector<HorizonEdge> horizon_;
   Vec3 extent_;
+  std::size_t paid_facets_ = 0;
   std::uint64_t heights_ = 0;
 };
 

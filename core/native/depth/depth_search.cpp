@@ -78,6 +78,8 @@ class Search {
     result_.upper = goal.upper;
     scanned_ = goal.prove;
   }
+  Search(const Search&) = delete;  // the sets refer to the budget
+  Search& operator=(const Search&) = delete;
 
   DepthInterval run() {
     ask_meshes({0, 0, 0});
@@ -182,6 +184,7 @@ class Search {
 
   MeshRelation relation_at(Vec3 t) {
     poll();
+    budget_.note(proven(), result_.upper);
     ++result_.mesh_tests;
     budget_.spend(kVertexWork * a_.mesh.vertices.size());
     return overlap_relation(moved_.at(t, &budget_), b_, &budget_);

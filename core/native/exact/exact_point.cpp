@@ -19,6 +19,8 @@ constexpr double kSlack = 1.001;
 
 // Measured steps of an exact sign: of any, of each digit of the point, of each pair of them.
 constexpr std::uint64_t kSignWork = 600, kDigitWork = 20, kDigitPairWork = 2;
+// The same in a plane, and of two coordinates; then for each pair of digits of the longest point.
+constexpr std::uint64_t kAreaWork = 100, kAreaDigitsWork = 8, kCompareWork = 80, kCompareDigitsWork = 2;
 
 double point_error(double coordinate) {
   return kPointError * std::fabs(coordinate) + std::numeric_limits<double>::min();
@@ -32,8 +34,14 @@ Dyadic minor(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Dyadic& d)
 
 }  // namespace
 
+namespace {
+
+std::uint64_t digits_of(const ExactPoint& p) { return std::max({p.x.digits(), p.y.digits(), p.z.digits(), p.w.digits()}); }
+
+}  // namespace
+
 std::uint64_t sign_work(const ExactPoint& p) {
-  const std::uint64_t digits = std::max({p.x.digits(), p.y.digits(), p.z.digits(), p.w.digits()});
+  const std::uint64_t digits = digits_of(p);
   return kSignWork + kDigitWork * digits + kDigitPairWork * digits * digits;
 }
 
@@ -228,6 +236,12 @@ int filtered_orientation_2d(Known a, Known b, Known c, int drop_axis) {
   return area > bound ? 1 : area < -bound ? -1 : kOpen;
 }
 
+int exact_orientation_2d(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis, Budget* budget) {
+  const std::uint64_t digits = std::max({digits_of(a), digits_of(b), digits_of(c)});
+  spend(budget, kAreaWork + kAreaDigitsWork * digits * digits);
+  return area_value(a, b, c, drop_axis).sign();
+}
+
 Known known(const LazyPoint& p) { return {p.rounded, p.error}; }
 
 }  // namespace
@@ -244,39 +258,41 @@ LazyPoint lazy_crossing(const LazyPoint& p, const LazyPoint& q, const LazyPoint&
                    rounded_area(known(u), known(v), known(q), drop_axis), std::move(make));
 }
 
-int compare_along(const LazyPoint& p, const LazyPoint& q, int axis) {
+int compare_along(const LazyPoint& p, const LazyPoint& q, int axis, Budget* budget) {
   const double gap = p.rounded[axis] - q.rounded[axis], error = kSlack * (p.error[axis] + q.error[axis]);
   if (gap > error) return 1;
   if (gap < -error) return -1;
   if (error == 0) return 0;
   const ExactPoint &a = p.exact(), &b = q.exact();
+  const std::uint64_t digits = std::max(digits_of(a), digits_of(b));
+  spend(budget, kCompareWork + kCompareDigitsWork * digits * digits);
   return (coordinate(a, axis) * b.w - coordinate(b, axis) * a.w).sign();
 }
 
-int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis) {
+int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis, Budget* budget) {
   const int sign = filtered_orientation_2d({a, {}}, {b, {}}, {p.rounded, p.error}, drop_axis);
-  return sign != kOpen ? sign : orientation_2d_at(make_exact_point(a), make_exact_point(b), p, drop_axis);
+  return sign != kOpen ? sign : orientation_2d_at(make_exact_point(a), make_exact_point(b), p, drop_axis, budget);
 }
 
-int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis) {
+int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis, Budget* budget) {
   const int sign = filtered_orientation_2d({a, {}}, {b, {}}, {p.rounded, p.error}, drop_axis);
-  return sign != kOpen ? sign : orientation_2d_at(a, b, p.exact(), drop_axis);
+  return sign != kOpen ? sign : orientation_2d_at(a, b, p.exact(), drop_axis, budget);
 }
 
-int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
+int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis, Budget* budget) {
   if (is_float64(a) && is_float64(b) && is_float64(c)) {
-    return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis);
+    return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis, budget);
   }
   const int sign = filtered_orientation_2d({a.rounded, a.error}, {b.rounded, b.error}, {c.rounded, c.error}, drop_axis);
-  return sign != kOpen ? sign : area_value(a, b, c, drop_axis).sign();
+  return sign != kOpen ? sign : exact_orientation_2d(a, b, c, drop_axis, budget);
 }
 
-int orientation_2d_at(const LazyPoint& a, const LazyPoint& b, const LazyPoint& c, int drop_axis) {
+int orientation_2d_at(const LazyPoint& a, const LazyPoint& b, const LazyPoint& c, int drop_axis, Budget* budget) {
   if (a.error == Vec3{} && b.error == Vec3{} && c.error == Vec3{}) {
-    return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis);
+    return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis, budget);
   }
   const int sign = filtered_orientation_2d(known(a), known(b), known(c), drop_axis);
-  return sign != kOpen ? sign : area_value(a.exact(), b.exact(), c.exact(), drop_axis).sign();
+  return sign != kOpen ? sign : exact_orientation_2d(a.exact(), b.exact(), c.exact(), drop_axis, budget);
 }
 
 namespace {
@@ -285,7 +301,7 @@ template <class Point>
 bool in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c, Budget* budget) {
   const int side = filtered_orientation(a, b, c, {p.rounded, p.error});
   if (side != kOpen) return false;
-  return !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c) && orientation(a, b, c, p, budget) == 0;
+  return !collinear(a, b, c, budget) && plane_point_in_triangle(p, a, b, c, budget) && orientation(a, b, c, p, budget) == 0;
 }
 
 }  // namespace

@@ -76,12 +76,12 @@ bool operator==(const ExactPoint& p, const ExactPoint& q);
 // The predicates of predicates.hpp with an exact point in the last place.
 int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d, Budget* budget = nullptr);
 int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d, Budget* budget = nullptr);
-int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis);
-int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis);
-int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);
-int orientation_2d_at(const LazyPoint& a, const LazyPoint& b, const LazyPoint& c, int drop_axis);
+int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis, Budget* budget = nullptr);
+int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis, Budget* budget = nullptr);
+int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis, Budget* budget = nullptr);
+int orientation_2d_at(const LazyPoint& a, const LazyPoint& b, const LazyPoint& c, int drop_axis, Budget* budget = nullptr);
 // The sign of p[axis] - q[axis].
-int compare_along(const LazyPoint& p, const LazyPoint& q, int axis);
+int compare_along(const LazyPoint& p, const LazyPoint& q, int axis, Budget* budget = nullptr);
 
 // As point_in_triangle(). If float64 does not decide, most triangles miss the point when seen along an axis. This test
 // comes first, because it needs fewer digits than the test of the plane.

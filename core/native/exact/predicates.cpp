@@ -28,6 +28,9 @@ constexpr double kNormalTolerance = 1e-14;
 // Measured steps of an exact determinant: of expansions of coordinates of full length; of integers times powers of two,
 // with those that each pair of their digits adds.
 constexpr std::uint64_t kDeterminantWork = 900, kDyadicWork = 500, kDigitPairWork = 6;
+// The same of a 2x2 determinant of expansions, of the three of a normal; and how many 2x2 determinants of integers times
+// powers of two cost as much as a 3x3 one.
+constexpr std::uint64_t kMinorWork = 100, kNormalWork = 250, kDyadicMinors = 8;
 constexpr int kDigitBits = 32;
 
 // An unevaluated exact sum of nonoverlapping float64 terms, of increasing magnitude, none zero.
@@ -260,7 +263,7 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3, Budge
 
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Budget* budget) { return determinant_sign(a, b, a, c, a, d, budget); }
 
-int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
+int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis, Budget* budget) {
   const int i = drop_axis == 2 ? 0 : drop_axis + 1;
   const int j = drop_axis == 0 ? 2 : drop_axis - 1;
   const double left = (b[i] - a[i]) * (c[j] - a[j]);
@@ -271,9 +274,11 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
   if (determinant < -bound) return -1;
   if ((b[i] == a[i] || c[j] == a[j]) && (b[j] == a[j] || c[i] == a[i])) return 0;
   if (may_underflow({a, b, c})) {
+    if (budget != nullptr) budget->spend(dyadic_work({a, b, c}) / kDyadicMinors);
     const DyadicRow u(a, b), v(a, c);
     return minor(u[i], u[j], v[i], v[j]).sign();
   }
+  spend(budget, kMinorWork);
   return exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
                      difference(c[j], a[j]))
       .sign();
@@ -296,25 +301,29 @@ int turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return exact_minor(difference(b.x, a.x), difference(b.y, a.y), difference(d.x, c.x), difference(d.y, c.y)).sign();
 }
 
-bool collinear(Vec3 a, Vec3 b, Vec3 c) {
+bool collinear(Vec3 a, Vec3 b, Vec3 c, Budget* budget) {
   // For most triangles, a rounded component of the normal is clearly not 0.
   const Vec3 u = b - a, v = c - a;
   const auto is_clear = [](double left, double right) {
     return std::fabs(left - right) > kOrientation2dBound * (std::fabs(left) + std::fabs(right)) + kUnderflow;
   };
   if (is_clear(u.y * v.z, u.z * v.y) || is_clear(u.z * v.x, u.x * v.z) || is_clear(u.x * v.y, u.y * v.x)) return false;
-  return orientation_2d(a, b, c, 0) == 0 && orientation_2d(a, b, c, 1) == 0 &&
-         orientation_2d(a, b, c, 2) == 0;
+  return orientation_2d(a, b, c, 0, budget) == 0 && orientation_2d(a, b, c, 1, budget) == 0 &&
+         orientation_2d(a, b, c, 2, budget) == 0;
 }
 
-Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c) {
+Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c, Budget* budget) {
   const Vec3 u = b - a, v = c - a;
   const Vec3 normal = cross(u, v);
   // Each component is off by at most kOrientation2dBound times its two products' magnitudes.
   const double products = std::fabs(u.y * v.z) + std::fabs(u.z * v.y) + std::fabs(u.z * v.x) +
                           std::fabs(u.x * v.z) + std::fabs(u.x * v.y) + std::fabs(u.y * v.x);
   if (kOrientation2dBound * products + kUnderflow <= kNormalTolerance * max_abs(normal)) return normal;
-  if (may_underflow({a, b, c})) return normal_of_tiny(a, b, c);
+  if (may_underflow({a, b, c})) {
+    if (budget != nullptr) budget->spend(3 * dyadic_work({a, b, c}) / kDyadicMinors);
+    return normal_of_tiny(a, b, c);
+  }
+  spend(budget, kNormalWork);
   const ExactVector p = exact_difference(b, a), q = exact_difference(c, a);
   return {exact_minor(p.y, p.z, q.y, q.z).rounded(), exact_minor(p.z, p.x, q.z, q.x).rounded(),
           exact_minor(p.x, p.y, q.x, q.y).rounded()};

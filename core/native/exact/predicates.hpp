@@ -6,6 +6,8 @@
 //
 // Range: exact for coordinates of up to 1e45 (numeric_range.hpp), which all callers enforce. Coordinates may be small:
 // if a product may underflow, neither the filter nor the expansions are used.
+//
+// budget: pays for exact arithmetic; what float64 can tell costs nothing.
 #pragma once
 
 #include <cmath>
@@ -21,7 +23,6 @@ namespace satcheck {
 
 // Sign (-1, 0, +1) of det[b - a; c - a; d - a]: +1 when d lies on the side of the plane of the
 // triangle a, b, c to which its counter-clockwise normal (b - a) x (c - a) points.
-// budget: pays for exact arithmetic; a sign that float64 can tell costs nothing.
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Budget* budget = nullptr);
 
 // The relative error of a 3x3 determinant in float64, as a share of the sum of the magnitudes of its terms. A term has
@@ -68,7 +69,7 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3, Budge
 
 // Sign of the z, x or y component (drop_axis 2, 0, 1) of (b - a) x (c - a): the orientation of the
 // triangle projected along the named axis.
-int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis);
+int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis, Budget* budget = nullptr);
 
 // The same in the plane: +1 if c lies to the left of the line from a to b.
 int orientation(Vec2 a, Vec2 b, Vec2 c);
@@ -77,11 +78,11 @@ int orientation(Vec2 a, Vec2 b, Vec2 c);
 int turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 
 // Whether the three points lie on one line (or coincide).
-bool collinear(Vec3 a, Vec3 b, Vec3 c);
+bool collinear(Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr);
 
 // (b - a) x (c - a) with a relative error below 1e-14 of its length, even for thin triangles; zero exactly if the
 // points are collinear.
-Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c);
+Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr);
 
 // a.x b.x + a.y b.y + a.z b.z + offset, summed in twice the precision and rounded once.
 double rounded_affine(Vec3 a, Vec3 b, double offset);

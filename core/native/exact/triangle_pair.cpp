@@ -19,25 +19,25 @@ bool collinear_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
   return !coordinates_less(q, r) && !coordinates_less(s, p);
 }
 
-bool point_on_segment(Vec3 x, Vec3 p, Vec3 q) {
-  return collinear(p, q, x) && collinear_segments_meet(x, x, p, q);
+bool point_on_segment(Vec3 x, Vec3 p, Vec3 q, Budget* budget) {
+  return collinear(p, q, x, budget) && collinear_segments_meet(x, x, p, q);
 }
 
 // Closed segments of positive length in a plane that the projection along `axis` does not flatten.
-bool coplanar_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s, int axis) {
-  const int pr = orientation_2d(p, q, r, axis), ps = orientation_2d(p, q, s, axis);
+bool coplanar_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s, int axis, Budget* budget) {
+  const int pr = orientation_2d(p, q, r, axis, budget), ps = orientation_2d(p, q, s, axis, budget);
   if (pr == 0 && ps == 0) return collinear_segments_meet(p, q, r, s);
   if (pr * ps > 0) return false;
-  return orientation_2d(r, s, p, axis) * orientation_2d(r, s, q, axis) <= 0;
+  return orientation_2d(r, s, p, axis, budget) * orientation_2d(r, s, q, axis, budget) <= 0;
 }
 
 bool segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Budget* budget = nullptr) {
-  if (p == q) return point_on_segment(p, r, s);
-  if (r == s) return point_on_segment(r, p, q);
+  if (p == q) return point_on_segment(p, r, s, budget);
+  if (r == s) return point_on_segment(r, p, q, budget);
   if (orientation(p, q, r, s, budget) != 0) return false;
   for (int axis = 0; axis < 3; ++axis) {
-    if (orientation_2d(p, q, r, axis) != 0 || orientation_2d(p, q, s, axis) != 0) {
-      return coplanar_segments_meet(p, q, r, s, axis);
+    if (orientation_2d(p, q, r, axis, budget) != 0 || orientation_2d(p, q, s, axis, budget) != 0) {
+      return coplanar_segments_meet(p, q, r, s, axis, budget);
     }
   }
   return collinear_segments_meet(p, q, r, s);
@@ -135,19 +135,19 @@ Vec3 edge_meeting_point(const Corners& a, const Corners& b) {
 }  // namespace
 
 bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t, Budget* budget) {
-  if (collinear(t[0], t[1], t[2])) {
+  if (collinear(t[0], t[1], t[2], budget)) {
     const auto [low, high] = extremes(t);
     return segments_meet(p, q, low, high, budget);
   }
   const int sp = orientation(t[0], t[1], t[2], p, budget), sq = orientation(t[0], t[1], t[2], q, budget);
   if (sp * sq > 0) return false;
-  if (sp == 0 && plane_point_in_triangle(p, t[0], t[1], t[2])) return true;
-  if (sq == 0 && plane_point_in_triangle(q, t[0], t[1], t[2])) return true;
+  if (sp == 0 && plane_point_in_triangle(p, t[0], t[1], t[2], budget)) return true;
+  if (sq == 0 && plane_point_in_triangle(q, t[0], t[1], t[2], budget)) return true;
   if (p == q) return false;
   if (sp == 0 && sq == 0) {
-    const int axis = projection_axis(rounded_normal(t[0], t[1], t[2]));
+    const int axis = projection_axis(rounded_normal(t[0], t[1], t[2], budget));
     for (int i = 0; i < 3; ++i) {
-      if (coplanar_segments_meet(p, q, t[i], t[(i + 1) % 3], axis)) return true;
+      if (coplanar_segments_meet(p, q, t[i], t[(i + 1) % 3], axis, budget)) return true;
     }
     return false;
   }
@@ -188,14 +188,14 @@ TriangleContact classify(const TrianglePlane& plane, const Corners& b, Budget* b
                                                           : TriangleContact::touching;
 }
 
-bool share_area(const Corners& a, const Corners& b, int drop_axis) {
+bool share_area(const Corners& a, const Corners& b, int drop_axis, Budget* budget) {
   // Convex sets have no common area if a line along an edge of one separates them.
   const auto edge_parts = [&](const Corners& t, const Corners& other) {
-    const int turn = orientation_2d(t[0], t[1], t[2], drop_axis);
+    const int turn = orientation_2d(t[0], t[1], t[2], drop_axis, budget);
     for (int i = 0; i < 3; ++i) {
       bool outside = true;
       for (const Vec3& p : other) {
-        outside = outside && turn * orientation_2d(t[i], t[(i + 1) % 3], p, drop_axis) <= 0;
+        outside = outside && turn * orientation_2d(t[i], t[(i + 1) % 3], p, drop_axis, budget) <= 0;
       }
       if (outside) return true;
     }
@@ -204,11 +204,13 @@ bool share_area(const Corners& a, const Corners& b, int drop_axis) {
   return !edge_parts(a, b) && !edge_parts(b, a);
 }
 
-CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
-  if (collinear(a[0], a[1], a[2]) || collinear(b[0], b[1], b[2]) || !all_zero(sides(a, b))) return CoplanarOverlap::none;
-  const int axis = projection_axis(rounded_normal(a[0], a[1], a[2]));
-  if (!share_area(a, b, axis)) return CoplanarOverlap::none;
-  const bool agree = orientation_2d(a[0], a[1], a[2], axis) == orientation_2d(b[0], b[1], b[2], axis);
+CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b, Budget* budget) {
+  const auto is_collinear = [&](const Corners& t) { return collinear(t[0], t[1], t[2], budget); };
+  if (is_collinear(a) || is_collinear(b) || !all_zero(sides(a, b, budget))) return CoplanarOverlap::none;
+  const int axis = projection_axis(rounded_normal(a[0], a[1], a[2], budget));
+  if (!share_area(a, b, axis, budget)) return CoplanarOverlap::none;
+  const auto turn = [&](const Corners& t) { return orientation_2d(t[0], t[1], t[2], axis, budget); };
+  const bool agree = turn(a) == turn(b);
   return agree ? CoplanarOverlap::agreeing : CoplanarOverlap::opposing;
 }
 

@@ -27,10 +27,10 @@ enum class CoplanarOverlap {
 };
 
 // Whether two triangles of one plane share a patch of positive area, as seen along the axis.
-bool share_area(const Corners& a, const Corners& b, int drop_axis);
+bool share_area(const Corners& a, const Corners& b, int drop_axis, Budget* budget = nullptr);
 
 // Whether two triangles lie in one plane and share a patch of positive area.
-CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b);
+CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b, Budget* budget = nullptr);
 
 // Closed segment p q against a closed triangle, either of which may be degenerate.
 bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t, Budget* budget = nullptr);

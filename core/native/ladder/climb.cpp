@@ -238,7 +238,7 @@ class Climber {
     if (climb_.thick.value_or(false) || request_.tolerance == 0) return true;
     climb_.least_depth = least_depth(*a_, *b_, largest_coordinate(), relation);
     if (*climb_.least_depth > request_.tolerance) return true;
-    climb_.way_within = find_way_within(*request_.a, *request_.b, request_.tolerance, crossing_of(relation));
+    climb_.way_within = find_way_within(*request_.a, *request_.b, request_.tolerance, crossing_of(relation), poll_);
     return true;
   }
 
@@ -247,8 +247,9 @@ class Climber {
     if (request_.gap_limit == 0) return false;
     if (!a_) make_whole_surfaces();
     const double rounding = chain_rounding(largest_coordinate());
-    climb_.gap = mesh_distance(*a_, *b_, request_.wants_distance ? INFINITY : request_.tolerance + rounding);
-    if (!(a_->solid && b_->solid)) climb_.gap_of_holes = distance_of_holes(*a_, *b_, climb_.gap->distance);
+    Budget budget = Budget::that_stops(kMostSteps, poll_);
+    climb_.gap = mesh_distance(*a_, *b_, request_.wants_distance ? INFINITY : request_.tolerance + rounding, {}, &budget);
+    if (!(a_->solid && b_->solid)) climb_.gap_of_holes = distance_of_holes(*a_, *b_, climb_.gap->distance, &budget);
     return true;
   }
 

@@ -25,7 +25,8 @@ struct WayWithin {
 };
 
 // For bodies that overlap. crossing: triangles that meet; empty: none are known, and only the hulls are tried. Ends
-// early if a depth beyond the tolerance is proven.
-WayWithin find_way_within(PlacedGeometry& a, PlacedGeometry& b, double tolerance, std::optional<ContactPair> crossing);
+// early if a depth beyond the tolerance is proven. The steps of all trials are limited. poll: called now and then.
+WayWithin find_way_within(PlacedGeometry& a, PlacedGeometry& b, double tolerance, std::optional<ContactPair> crossing,
+                          const Poll& poll = {});
 
 }  // namespace satcheck

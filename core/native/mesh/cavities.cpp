@@ -16,10 +16,13 @@ namespace {
 
 using Around = std::optional<std::vector<std::uint32_t>>;  // components, ascending; empty: undecided
 
+// Measured steps of two triangles, and of a component in a list.
+constexpr std::uint64_t kTriangleWork = 30, kListedWork = 5;
+
 class Cavities {
  public:
-  Cavities(const Mesh& mesh, const EdgeTable& edges, const Labels& components)
-      : mesh_(mesh), of_triangle_(components.of_triangle), members_(components.members()), open_(find_open_sets(components, edges)) {
+  Cavities(const Mesh& mesh, const EdgeTable& edges, const Labels& components, Budget* budget)
+      : mesh_(mesh), budget_(budget), of_triangle_(components.of_triangle), members_(components.members()), open_(find_open_sets(components, edges)) {
     for (std::size_t c = 0; c < members_.size(); ++c) volumes_.push_back(open_[c] ? 0 : volume(members_[c]));
   }
 
@@ -47,6 +50,7 @@ class Cavities {
     const Around around = around_of(wall);
     if (!around) return std::nullopt;
     for (const std::uint32_t c : *around) {
+      spend(budget_, kListedWork * around->size());
       std::vector<std::uint32_t> others = *around;
       std::erase(others, c);
       if (around_of(c) != others) continue;
@@ -61,11 +65,12 @@ class Cavities {
     return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
       const Corners mine = corners(t);
       return visit_box(bvh_, mesh_, triangle_box(mesh_, t), [&](std::uint32_t u) {
+        spend(budget_, kTriangleWork);
         if (of_triangle_[u] == wall) return true;
-        const TriangleContact contact = classify(mine, corners(u));
+        const TriangleContact contact = classify(mine, corners(u), budget_);
         return contact == TriangleContact::disjoint ||
                (contact == TriangleContact::touching && of_triangle_[u] != solid);
-      });
+      }, budget_);
     });
   }
 
@@ -79,7 +84,7 @@ class Cavities {
   Around find_around(std::uint32_t component) const {
     for (const std::uint32_t t : members_[component]) {
       const Vec3 corner = mesh_.vertices[mesh_.triangles[t][0]];
-      const auto here = triangles_at(mesh_, bvh_, corner);
+      const auto here = triangles_at(mesh_, bvh_, corner, {}, budget_);
       if (!std::all_of(here.begin(), here.end(), [&](std::uint32_t u) { return of_triangle_[u] == component; })) continue;
       const Heading first = nearest_wall(bvh_.nodes[0].box, corner);
       for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
@@ -99,10 +104,11 @@ class Cavities {
       const std::uint32_t c = of_triangle_[t];
       if (c == besides || open_[c]) return true;
       const auto [p, q, r] = corners(t);
-      const auto crossing = segment_crossing(from, far, p, q, r);
+      spend(budget_, kTriangleWork);
+      const auto crossing = segment_crossing(from, far, p, q, r, budget_);
       if (crossing) windings[c] += *crossing;
       return crossing.has_value();
-    });
+    }, budget_);
     if (!generic) return std::nullopt;
     std::vector<std::uint32_t> around;
     for (const auto& [c, winding] : windings) {
@@ -117,6 +123,7 @@ class Cavities {
   }
 
   const Mesh& mesh_;
+  Budget* budget_;
   const std::vector<std::uint32_t>& of_triangle_;
   std::vector<std::vector<std::uint32_t>> members_;
   std::vector<bool> open_;
@@ -127,8 +134,8 @@ class Cavities {
 
 }  // namespace
 
-std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components) {
-  return Cavities(welded, edges, components).solids();
+std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components, Budget* budget) {
+  return Cavities(welded, edges, components, budget).solids();
 }
 
 }  // namespace satcheck

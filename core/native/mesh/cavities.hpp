@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/budget.hpp"
 #include "base/edge_table.hpp"
 #include "base/mesh.hpp"
 #include "base/patches.hpp"
@@ -12,6 +13,7 @@ namespace satcheck {
 // For each component the one that it belongs to: the solid whose cavity it bounds, else itself. A wall is closed, faces
 // inward, crosses no component, and lies within an outward one that it does not touch, with no other wall between them.
 // Signs are exact; what they leave open is no wall.
-std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components);
+std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components,
+                                     Budget* budget = nullptr);
 
 }  // namespace satcheck

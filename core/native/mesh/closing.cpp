@@ -25,7 +25,8 @@ Closing fill_holes(const Surface& open) {
     }
   }
   closing.surface = std::make_shared<const Surface>(make_surface(closed, true));
-  closing.hulls = hulls_of(open.mesh, closing.holes);
+  Budget budget = Budget::that_stops(kMostSteps);
+  closing.hulls = hulls_of(open.mesh, closing.holes, &budget);
   return closing;
 }
 

@@ -31,6 +31,9 @@ namespace {
 // dot product, in units of the hull's extent.
 constexpr double kDepthError = 4e-14;
 
+// Measured steps of a triangle and a plane.
+constexpr std::uint64_t kPlaneWork = 15;
+
 // The number of points tried on the way inward from a corner, each at half the distance of the last one, and the ratio
 // of distance to depth that is good enough. A corner of a cube has 1.7.
 constexpr int kInwardSteps = 24;
@@ -38,9 +41,10 @@ constexpr double kGoodRatio = 4;
 
 class Defect {
  public:
-  Defect(const Mesh& mesh, const Polytope& hull)
+  Defect(const Mesh& mesh, const Polytope& hull, Budget* budget)
       : mesh_(mesh),
         hull_(hull),
+        budget_(budget),
         boundary_(make_surface({hull.vertices, hull.triangles}, false)),
         depth_error_(kDepthError * norm(extent())) {
     // Fan triangulation: a face of n corners has n - 2 triangles, in order.
@@ -63,7 +67,7 @@ class Defect {
 
   // Depth of a point below the hull's planes, rounded down; 0 or less when it is not inside.
   double point_depth(Vec3 p) const {
-    const NearestPoint nearest = nearest_point(boundary_, p);
+    const NearestPoint nearest = nearest_point(boundary_, p, budget_);
     const std::uint32_t face = face_of_triangle_[nearest.triangle];
     const bool below = dot(hull_.face_normal[face], nearest.point - p) > depth_error_;
     return below ? nearest.distance - depth_error_ : 0;
@@ -118,10 +122,11 @@ class Defect {
 
   // Exactly 0 when the triangle lies in the plane of the face.
   double depth_below(const Corners& t, std::uint32_t face) const {
+    spend(budget_, kPlaneWork);
     const std::uint32_t first = hull_.face_offset[face];
     const auto at = [&](std::uint32_t i) { return hull_.vertices[hull_.face_vertex[first + i]]; };
     const bool in_plane = std::all_of(t.begin(), t.end(), [&](Vec3 p) {
-      return orientation(at(0), at(1), at(2), p) == 0;
+      return orientation(at(0), at(1), at(2), p, budget_) == 0;
     });
     if (in_plane) return 0;
     double depth = 0;
@@ -146,11 +151,12 @@ class Defect {
   }
 
   std::uint32_t nearest_face(Vec3 p) const {
-    return face_of_triangle_[nearest_point(boundary_, p).triangle];
+    return face_of_triangle_[nearest_point(boundary_, p, budget_).triangle];
   }
 
   const Mesh& mesh_;
   const Polytope& hull_;
+  Budget* budget_;
   Surface boundary_;
   double depth_error_;
   std::vector<std::uint32_t> face_of_triangle_;
@@ -198,21 +204,21 @@ bool has_reflex_edge(const Mesh& welded) {
 
 }  // namespace
 
-double convexity_defect(const Mesh& mesh, double limit) {
+double convexity_defect(const Mesh& mesh, double limit, Budget* budget) {
   if (limit == 0 && is_dented(mesh)) return INFINITY;
   const Mesh welded = weld(mesh);
   if (limit == 0 && has_reflex_edge(welded)) return INFINITY;
   const Topology topology = measure_topology(welded);
   if (!topology.solid || topology.volume <= 0) return INFINITY;
-  const Polytope hull = convex_hull(welded.vertices);
-  const Defect defect(welded, hull);
+  const Polytope hull = convex_hull(welded.vertices, budget);
+  const Defect defect(welded, hull, budget);
   const double depth = defect.depth(limit);
   if (depth == 0 || std::isinf(depth)) return depth;
 
   const Vec3 centre = mean(hull.vertices);
   const bool in_core = defect.point_depth(centre) > depth;
   const Surface surface = make_surface(welded, true);
-  if (!in_core || winding_number(surface, centre).value_or(0) == 0) return INFINITY;
+  if (!in_core || winding_number(surface, centre, budget).value_or(0) == 0) return INFINITY;
   return defect.reach(depth, centre, limit);
 }
 

@@ -8,6 +8,7 @@
 #include "base/edge_table.hpp"
 #include "base/patches.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/bvh.hpp"
 
 namespace satcheck {
 namespace {
@@ -47,8 +48,8 @@ int widest_axis(const Mesh& mesh, const std::vector<std::uint32_t>& vertices) {
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
-// For each vertex of the loops: the first vertex within the width, along the widest axis, where the fewest are
-// near; the vertex itself where there is no other.
+// For each vertex of the loops: the first vertex along the widest axis within the width, if not itself within the width
+// of one before; the vertex itself where there is no other.
 std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::vector<BoundaryLoop>& loops, double width) {
   std::vector<std::uint32_t> vertices;
   for (const BoundaryLoop& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
@@ -57,13 +58,17 @@ std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::
   const auto place = [&](std::uint32_t v) { return at(v)[axis]; };
   std::sort(vertices.begin(), vertices.end(), [&](auto u, auto v) { return place(u) != place(v) ? place(u) < place(v) : u < v; });
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::vector<Aabb> points;
+  for (const std::uint32_t v : vertices) points.push_back({at(v), at(v)});
+  const Bvh tree = build_bvh_by_form(points);
+  const Vec3 reach = Vec3{1, 1, 1} * (2 * width);  // beyond the width by more than all rounding
   std::map<std::uint32_t, std::uint32_t> same;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const std::uint32_t first = vertices[i];
+  for (const std::uint32_t first : vertices) {
     if (!same.try_emplace(first, first).second) continue;
-    for (std::size_t k = i + 1; k < vertices.size() && place(vertices[k]) - place(first) <= width; ++k) {
+    visit_box(tree, {at(first) - reach, at(first) + reach}, [&](std::uint32_t k) {
       if (distance(at(first), at(vertices[k])) <= width) same.try_emplace(vertices[k], first);
-    }
+      return true;
+    });
   }
   return same;
 }

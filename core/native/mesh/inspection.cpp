@@ -23,8 +23,9 @@ std::vector<Hole> holes_but_flat_parts(const Mesh& welded) {
   return find_holes(mesh);
 }
 
-void orient_mesh(Inspection& result) {
-  Mesh oriented = orient(result.mesh);
+void orient_mesh(Inspection& result, const Poll& poll) {
+  Budget budget = Budget::that_stops(kMostSteps, poll);
+  Mesh oriented = orient(result.mesh, &budget);
   if (oriented.triangles == result.mesh.triangles && oriented.vertices == result.mesh.vertices) return;
   result.mesh = std::move(oriented);
   result.turned = true;
@@ -33,22 +34,22 @@ void orient_mesh(Inspection& result) {
 
 }  // namespace
 
-Inspection inspect(MeshView mesh, bool orient_it) {
+Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll) {
   Inspection result;
   result.mesh = weld_and_sort(mesh);
   result.topology = result.repaired = measure_sorted(result.mesh);
   if (result.topology.is_plain_solid()) return result;
-  if (orient_it) orient_mesh(result);
+  if (orient_it) orient_mesh(result, poll);
   if (has_boundary(result.repaired)) result.holes = holes_but_flat_parts(result.mesh);
   return result;
 }
 
-Inspection with_cracks_closed(Inspection result, bool orient_it, double width) {
+Inspection with_cracks_closed(Inspection result, bool orient_it, double width, const Poll& poll) {
   if (!has_boundary(result.repaired)) return result;
   result.cracks = seal_cracks(result.mesh, width);
   if (result.cracks == 0) return result;
   result.repaired = measure_topology(result.mesh);
-  if (orient_it) orient_mesh(result);
+  if (orient_it) orient_mesh(result, poll);
   result.holes = has_boundary(result.repaired) ? holes_but_flat_parts(result.mesh) : std::vector<Hole>{};
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "base/mesh.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/topology.hpp"
@@ -19,9 +20,10 @@ struct Inspection {
   std::vector<Hole> holes; // of `mesh`, the largest first
 };
 
-Inspection inspect(MeshView mesh, bool orient_it);
+// Both throw BudgetSpent if orienting takes more than kMostSteps. poll: called now and then.
+Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll = {});
 
 // Closes the cracks of the mesh. width: points this close may be the same point.
-Inspection with_cracks_closed(Inspection inspection, bool orient_it, double width);
+Inspection with_cracks_closed(Inspection inspection, bool orient_it, double width, const Poll& poll = {});
 
 }  // namespace satcheck

@@ -150,11 +150,14 @@ bool within(const Aabb& inner, const Aabb& outer) {
          inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
 }
 
+// Measured steps of the boxes of two patches, and of two triangles.
+constexpr std::uint64_t kBoxWork = 5, kTriangleWork = 30;
+
 // How a patch lies to the other ones.
 class Nesting {
  public:
-  Nesting(const Mesh& mesh, const Labels& labels, const std::vector<Patch>& patches)
-      : mesh_(mesh), labels_(labels), patches_(patches), on_rim_(mesh.triangles.size(), false) {
+  Nesting(const Mesh& mesh, const Labels& labels, const std::vector<Patch>& patches, Budget* budget)
+      : mesh_(mesh), labels_(labels), patches_(patches), budget_(budget), on_rim_(mesh.triangles.size(), false) {
     for (const Patch& patch : patches) {
       for (const std::uint32_t t : patch.on_rim) on_rim_[t] = true;
     }
@@ -163,6 +166,7 @@ class Nesting {
   // Whether the patch is inside, or on the surface of, other shells. The box test avoids building the tree if no other
   // shell can contain the patch.
   bool is_nested(std::uint32_t patch) {
+    spend(budget_, kBoxWork * patches_.size());
     const bool possible = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& other) {
       return &other != &patches_[patch] && other.shell && within(patches_[patch].box, other.box);
     });
@@ -170,7 +174,7 @@ class Nesting {
     const Vec3 point = mesh_.vertices[mesh_.triangles[patches_[patch].triangles[0]][0]];
     const auto winding = winding_number(mesh_, tree(), point, [&](std::uint32_t t) {
       return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].shell;
-    });
+    }, budget_);
     return winding != 0 && !crosses_another(patch);
   }
 
@@ -180,7 +184,7 @@ class Nesting {
     const auto& ends = patches_[patch].on_rim;
     return std::any_of(ends.begin(), ends.end(), [&](std::uint32_t t) {
       return !visit_box(tree(), mesh_, triangle_box(mesh_, t),
-                        [&](std::uint32_t u) { return labels_.of_triangle[u] == patch || !on_rim_[u]; });
+                        [&](std::uint32_t u) { return labels_.of_triangle[u] == patch || !on_rim_[u]; }, budget_);
     });
   }
 
@@ -189,8 +193,9 @@ class Nesting {
     return std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
       const Corners mine = corners(t);
       return !visit_box(tree(), mesh_, triangle_box(mesh_, t), [&](std::uint32_t u) {
-        return labels_.of_triangle[u] == patch || classify(mine, corners(u)) != TriangleContact::crossing;
-      });
+        spend(budget_, kTriangleWork);
+        return labels_.of_triangle[u] == patch || classify(mine, corners(u), budget_) != TriangleContact::crossing;
+      }, budget_);
     });
   }
 
@@ -208,6 +213,7 @@ class Nesting {
   const Mesh& mesh_;
   const Labels& labels_;
   const std::vector<Patch>& patches_;
+  Budget* budget_;
   std::vector<bool> on_rim_;
   Bvh bvh_;
 };
@@ -269,7 +275,7 @@ void drop_surplus(Mesh& welded, std::optional<EdgeTable>& edges) {
 
 }  // namespace
 
-Mesh orient(const Mesh& mesh) {
+Mesh orient(const Mesh& mesh, Budget* budget) {
   Mesh result = weld(mesh);
   std::optional<EdgeTable> edges(std::in_place, result.vertices.size(), result.triangles);
   drop_surplus(result, edges);
@@ -283,7 +289,7 @@ Mesh orient(const Mesh& mesh) {
   if (total < 0) {
     for (Patch& patch : patches) flip(result, patch);
   }
-  Nesting nesting(result, labels, patches);
+  Nesting nesting(result, labels, patches, budget);
   std::vector<std::uint32_t> inside_out;
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
     if (has_to_turn(result, patches, p, nesting)) inside_out.push_back(p);
@@ -292,7 +298,7 @@ Mesh orient(const Mesh& mesh) {
   return result;
 }
 
-std::vector<Mesh> split_components(const Mesh& mesh, double crack_width) {
+std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const Poll& poll) {
   const Mesh welded = weld(mesh);
   Mesh sealed = welded;
   if (crack_width > 0) seal_cracks(sealed, crack_width);
@@ -301,7 +307,8 @@ std::vector<Mesh> split_components(const Mesh& mesh, double crack_width) {
   std::vector<std::uint32_t> place(welded.vertices.size());
   std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
   Labels labels = label_components(sealed, edges);
-  const std::vector<std::uint32_t> solids = solids_of(sealed, edges, labels);
+  Budget budget = Budget::that_stops(kMostSteps, poll);
+  const std::vector<std::uint32_t> solids = solids_of(sealed, edges, labels, &budget);
   for (std::uint32_t& label : labels.of_triangle) label = solids[label];
   for (const auto& members : labels.members()) {
     if (members.empty()) continue;  // they bound a cavity

@@ -1,6 +1,7 @@
 // Repairs of the winding of a mesh.
 #pragma once
 
+#include "base/budget.hpp"
 #include "base/mesh.hpp"
 
 namespace satcheck {
@@ -9,6 +10,6 @@ namespace satcheck {
 // triangle are dropped if the surface is closed only without them. Components with mixed winding are repaired if they
 // are orientable edge-manifolds. A component with consistent winding keeps it, so cavities stay cavities. Exceptions:
 // the whole mesh is inside out, or the component is inside out and within no other one.
-Mesh orient(const Mesh& mesh);
+Mesh orient(const Mesh& mesh, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -7,8 +7,8 @@
 namespace satcheck {
 namespace {
 
-// Measured steps of a triangle near the patch.
-constexpr std::uint64_t kTriangleWork = 100;
+// Measured steps of a triangle near the patch, of a triangle that may hold a point, and of a part of the plane in a list.
+constexpr std::uint64_t kTriangleWork = 100, kHoldsWork = 30, kListedWork = 5;
 
 // Points of a cell that are tried before its winding numbers count as undecided.
 constexpr int kAttempts = 8;
@@ -56,7 +56,7 @@ void PlaneCells::look_at(PatchTriangle other, const Corners& member) {
     if (straddles && classify(member, c, budget_) == TriangleContact::disjoint) return;  // it may meet another member
     seen = seen_.emplace(key(other), is_flat ? Seen::coplanar : Seen::done).first;
     if (*low > 0 || *high < 0) return;
-    if (collinear(c[0], c[1], c[2])) {
+    if (collinear(c[0], c[1], c[2], budget_)) {
       seen->second = Seen::done;
     } else if (!is_flat) {
       add_trace(other.surface, c, side);
@@ -64,7 +64,7 @@ void PlaneCells::look_at(PatchTriangle other, const Corners& member) {
       add_sides(other, false);
     }
   }
-  if (seen->second == Seen::coplanar && share_area(member, c, graph_.axis())) {
+  if (seen->second == Seen::coplanar && share_area(member, c, graph_.axis(), budget_)) {
     seen->second = Seen::done;
     members_.push_back(other);
   }
@@ -73,7 +73,7 @@ void PlaneCells::look_at(PatchTriangle other, const Corners& member) {
 void PlaneCells::add_sides(PatchTriangle coplanar, bool is_member) {
   const Corners c = corners_of(coplanar);
   // A triangle that faces backward has its inside on the right.
-  const int inward = graph_.turn() * orientation_2d(c[0], c[1], c[2], graph_.axis());
+  const int inward = graph_.turn() * orientation_2d(c[0], c[1], c[2], graph_.axis(), budget_);
   std::array<std::uint32_t, 3> at;
   for (int i = 0; i < 3; ++i) at[i] = graph_.vertex(c[i]);
   for (int i = 0; i < 3; ++i) graph_.add_segment(at[i], at[(i + 1) % 3], coplanar.surface, {is_member ? -inward : 0, 0, 0});
@@ -130,6 +130,7 @@ void PlaneCells::start_at(std::uint32_t h) {
     const auto p = graph_.inside_left_of(h, corners_, attempt);
     if (!p) return;  // no triangle of the patch is there
     sides.at = {};
+    spend(budget_, kHoldsWork * members_.size());
     for (const PatchTriangle& member : members_) sides.at[member.surface].cover += holds(corners_of(member), *p) ? 1 : 0;
     if (!sides.in_patch()) return;
     sides.decided = true;
@@ -177,11 +178,12 @@ ExactPoint PlaneCells::inside(std::uint32_t outline) const {
 
 // p is on no side of the triangle.
 bool PlaneCells::holds(const Corners& triangle, const ExactPoint& p) const {
-  const auto side = [&](int i) { return orientation_2d_at(triangle[i], triangle[(i + 1) % 3], p, graph_.axis()); };
+  const auto side = [&](int i) { return orientation_2d_at(triangle[i], triangle[(i + 1) % 3], p, graph_.axis(), budget_); };
   return side(0) == side(1) && side(0) == side(2);
 }
 
 std::array<std::uint32_t, 2> PlaneCells::triangles_at(const ExactPoint& p) const {
+  spend(budget_, kHoldsWork * members_.size());
   std::array<std::uint32_t, 2> at{PlaneGraph::kNone, PlaneGraph::kNone};
   for (const PatchTriangle& member : members_) {
     if (at[member.surface] == PlaneGraph::kNone && holds(corners_of(member), p)) at[member.surface] = member.triangle;
@@ -191,6 +193,7 @@ std::array<std::uint32_t, 2> PlaneCells::triangles_at(const ExactPoint& p) const
 
 // Parts of the graph that do not meet the sides of the triangle are completely inside it, or not at all.
 std::vector<std::uint32_t> PlaneCells::outlines_in(PatchTriangle member) const {
+  spend(budget_, kListedWork * (members_.size() + in_patch_.size() + graph_.half_edge_count()));
   const std::size_t number = std::find(members_.begin(), members_.end(), member) - members_.begin();
   std::array<std::uint32_t, 3> at{corners_[3 * number], corners_[3 * number + 1], corners_[3 * number + 2]};
   if (graph_.side(at[0], at[1], graph_.node(at[2])) < 0) std::swap(at[1], at[2]);
@@ -229,13 +232,13 @@ std::vector<std::uint32_t> PlaneCells::nodes_of(std::uint32_t outline) const {
 }
 
 std::vector<std::uint32_t> PlaneCells::outlines_at(const LazyPoint& x) const {
+  spend(budget_, kListedWork * graph_.half_edge_count());
   std::vector<std::uint32_t> outlines;
   for (std::uint32_t h = 0; h < graph_.half_edge_count(); ++h) {
     const LazyPoint& node = graph_.node(graph_.start(h));
     if (!meet(point_box(node), point_box(x)) || !sides_[graph_.outline(h)].in_patch()) continue;
-    if (compare_along(node, x, 0) == 0 && compare_along(node, x, 1) == 0 && compare_along(node, x, 2) == 0) {
-      outlines.push_back(graph_.outline(h));
-    }
+    const auto same = [&](int axis) { return compare_along(node, x, axis, budget_) == 0; };
+    if (same(0) && same(1) && same(2)) outlines.push_back(graph_.outline(h));
   }
   return outlines;
 }

@@ -11,8 +11,9 @@
 namespace satcheck {
 namespace {
 
-// Measured steps of two segments that may meet, of a crossing with all that follows from it, and of a half-edge.
-constexpr std::uint64_t kPairWork = 20, kCrossingWork = 3000, kHalfEdgeWork = 150;
+// Measured steps of two segments that may meet, of a crossing with all that follows from it, of a stop with its share of
+// the sort, and of a half-edge.
+constexpr std::uint64_t kPairWork = 20, kCrossingWork = 3000, kStopWork = 150, kHalfEdgeWork = 150;
 
 // Below this a rounded fraction may have lost digits.
 constexpr double kSmallestFraction = 1e-200;
@@ -20,8 +21,8 @@ constexpr double kSmallestFraction = 1e-200;
 }  // namespace
 
 PlaneGraph::PlaneGraph(const Corners& plane, Budget* budget)
-    : plane_(plane), axis_(projection_axis(rounded_normal(plane[0], plane[1], plane[2]))),
-      turn_(orientation_2d(plane[0], plane[1], plane[2], axis_)), budget_(budget) {}
+    : plane_(plane), axis_(projection_axis(rounded_normal(plane[0], plane[1], plane[2], budget))),
+      turn_(orientation_2d(plane[0], plane[1], plane[2], axis_, budget)), budget_(budget) {}
 
 void PlaneGraph::build() {
   meet_segments();
@@ -122,9 +123,9 @@ void PlaneGraph::meet(std::uint32_t i, std::uint32_t k) {
 void PlaneGraph::stop_at(std::uint32_t segment, std::uint32_t node) {
   Segment& s = segments_[segment];
   if (node == s.from || node == s.to) return;
-  const int axis = axis_along(s), way = compare_along(nodes_[s.to], nodes_[s.from], axis);
-  const int beyond = way * compare_along(nodes_[node], nodes_[s.from], axis);
-  const int before = way * compare_along(nodes_[s.to], nodes_[node], axis);
+  const int axis = axis_along(s), way = compare(s.to, s.from, axis);
+  const int beyond = way * compare(node, s.from, axis);
+  const int before = way * compare(s.to, node, axis);
   if (beyond == 0 || before == 0) same_.emplace_back(node, beyond == 0 ? s.from : s.to);
   if (beyond > 0 && before > 0) s.stops.push_back(node);
 }
@@ -132,8 +133,8 @@ void PlaneGraph::stop_at(std::uint32_t segment, std::uint32_t node) {
 int PlaneGraph::axis_along(const Segment& s) const {
   const Vec3 way = nodes_[s.to].rounded - nodes_[s.from].rounded;
   const int widest = projection_axis(way);
-  if (compare_along(nodes_[s.to], nodes_[s.from], widest) != 0) return widest;
-  return compare_along(nodes_[s.to], nodes_[s.from], (widest + 1) % 3) != 0 ? (widest + 1) % 3 : (widest + 2) % 3;
+  if (compare(s.to, s.from, widest) != 0) return widest;
+  return compare(s.to, s.from, (widest + 1) % 3) != 0 ? (widest + 1) % 3 : (widest + 2) % 3;
 }
 
 void PlaneGraph::cut_segments() {
@@ -161,14 +162,15 @@ void PlaneGraph::cut_segments() {
 }
 
 void PlaneGraph::sort_stops(Segment& s) {
-  const int axis = axis_along(s), way = compare_along(nodes_[s.to], nodes_[s.from], axis);
+  spend(budget_, kStopWork * s.stops.size());
+  const int axis = axis_along(s), way = compare(s.to, s.from, axis);
   std::sort(s.stops.begin(), s.stops.end(), [&](std::uint32_t p, std::uint32_t q) {
-    const int order = p == q ? 0 : way * compare_along(nodes_[p], nodes_[q], axis);
+    const int order = p == q ? 0 : way * compare(p, q, axis);
     return order != 0 ? order < 0 : p < q;
   });
   s.stops.erase(std::unique(s.stops.begin(), s.stops.end()), s.stops.end());
   for (std::size_t k = 1; k < s.stops.size(); ++k) {
-    if (compare_along(nodes_[s.stops[k - 1]], nodes_[s.stops[k]], axis) == 0) same_.emplace_back(s.stops[k - 1], s.stops[k]);
+    if (compare(s.stops[k - 1], s.stops[k], axis) == 0) same_.emplace_back(s.stops[k - 1], s.stops[k]);
   }
 }
 
@@ -203,10 +205,10 @@ PlaneChanges PlaneGraph::changes(std::uint32_t h) const {
 
 std::vector<std::uint32_t> PlaneGraph::along(std::uint32_t from, std::uint32_t to) const {
   const Segment& s = segments_[segment_of_.at(std::minmax(from, to))];
-  const int axis = axis_along(s), way = compare_along(nodes_[to], nodes_[from], axis);
+  const int axis = axis_along(s), way = compare(to, from, axis);
   std::vector<std::uint32_t> half_edges;
   for (const std::uint32_t e : s.edges) {
-    const bool upward = compare_along(nodes_[edges_[e].high], nodes_[edges_[e].low], axis) == way;
+    const bool upward = compare(edges_[e].high, edges_[e].low, axis) == way;
     half_edges.push_back(2 * e + (upward ? 0 : 1));
   }
   return half_edges;
@@ -291,7 +293,7 @@ Ratio PlaneGraph::clear_way(const LazyPoint& lazy_from, const LazyPoint& to) con
     if (from_side == 0 && to_side == 0) {
       for (const std::uint32_t node : {o.from, o.to}) consider(position(nodes_[node].exact()));
     } else if (from_side * to_side < 0) {
-      const auto side_of_way = [&](std::uint32_t node) { return orientation_2d_at(lazy_from, to, nodes_[node], axis_); };
+      const auto side_of_way = [&](std::uint32_t node) { return orientation_2d_at(lazy_from, to, nodes_[node], axis_, budget_); };
       if (side_of_way(o.from) * side_of_way(o.to) > 0) continue;
       const ExactPoint &p = nodes_[o.from].exact(), &q = nodes_[o.to].exact();
       consider(zero_between(area_value(p, q, from, axis_) * end.w, area_value(p, q, end, axis_) * from.w));

@@ -60,7 +60,7 @@ class PlaneGraph {
   std::uint32_t part(std::uint32_t node) const { return part_[node]; }
   // +1: left of the way from p to q.
   int side(std::uint32_t p, std::uint32_t q, const LazyPoint& of) const {
-    return turn_ * orientation_2d_at(nodes_[p], nodes_[q], of, axis_);
+    return turn_ * orientation_2d_at(nodes_[p], nodes_[q], of, axis_, budget_);
   }
 
   // Half-edge 2 k runs along edge k, 2 k + 1 back. An outline: what is on the left of half-edges that follow each other.
@@ -99,6 +99,8 @@ class PlaneGraph {
     PlaneChanges changes;
   };
 
+  // The sign of node p's coordinate minus that of q.
+  int compare(std::uint32_t p, std::uint32_t q, int axis) const { return compare_along(nodes_[p], nodes_[q], axis, budget_); }
   void meet_segments();
   void meet(std::uint32_t i, std::uint32_t k);
   void stop_at(std::uint32_t segment, std::uint32_t node);

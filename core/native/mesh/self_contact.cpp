@@ -13,9 +13,9 @@
 namespace satcheck {
 namespace {
 
-bool is_collinear(const Mesh& mesh, std::uint32_t t) {
+bool is_collinear(const Mesh& mesh, std::uint32_t t, Budget* budget) {
   const Corners c = corners(mesh, t);
-  return collinear(c[0], c[1], c[2]);
+  return collinear(c[0], c[1], c[2], budget);
 }
 
 // The corners of t in an order that starts with those it shares with u.
@@ -37,7 +37,7 @@ class Beheld {
  public:
   Beheld(const Mesh& mesh, std::uint32_t t, Budget* budget)
       : mesh_(mesh), budget_(budget), t_(mesh.triangles[t]), c_(corners(mesh, t)), plane_(c_[0], c_[1], c_[2]),
-        axis_(projection_axis(rounded_normal(c_[0], c_[1], c_[2]))) {}
+        axis_(projection_axis(rounded_normal(c_[0], c_[1], c_[2], budget))) {}
 
   // Whether they have more in common than shared corners and edges.
   bool has_more_in_common_with(std::uint32_t other) const {
@@ -54,7 +54,7 @@ class Beheld {
 
  private:
   Vec3 at(std::uint32_t v) const { return mesh_.vertices[v]; }
-  int turn(Vec3 p, Vec3 q, Vec3 r) const { return orientation_2d(p, q, r, axis_); }
+  int turn(Vec3 p, Vec3 q, Vec3 r) const { return orientation_2d(p, q, r, axis_, budget_); }
 
   // Whether the corner s of a triangle across the edge p q is in the plane, on the side of r. Coplanar neighbours
   // usually lie on both sides of the edge, which is a quick test.
@@ -113,7 +113,7 @@ bool has_irregular_partners(const Surface& surface, std::uint32_t t, Budget* bud
   const Mesh& mesh = surface.mesh;
   const Beheld triangle(mesh, t, budget);
   return !visit_box(surface.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t u) {
-    return u == t || is_collinear(mesh, u) || !triangle.has_more_in_common_with(u);
+    return u == t || is_collinear(mesh, u, budget) || !triangle.has_more_in_common_with(u);
   }, budget);
 }
 
@@ -125,7 +125,7 @@ void visit_uniform_parts(const std::vector<const Surface*>& surfaces, const std:
   const Neighbours neighbours(mesh);
   std::vector<bool> done(mesh.triangles.size(), false);
   for (std::uint32_t first = 0; first < mesh.triangles.size(); ++first) {
-    if (done[first] || !wanted(first) || is_collinear(mesh, first)) continue;
+    if (done[first] || !wanted(first) || is_collinear(mesh, first, budget)) continue;
     if (has_irregular_partners(surface, first, budget)) {
       const PlaneCells cells(surfaces, {0, first}, SinglePoints::left_out, budget);
       for (const PatchTriangle& member : cells.members()) {
@@ -141,7 +141,7 @@ void visit_uniform_parts(const std::vector<const Surface*>& surfaces, const std:
       const std::uint32_t t = queue.back();
       queue.pop_back();
       neighbours.visit(t, [&](std::uint32_t u) {
-        if (done[u] || !wanted(u) || is_collinear(mesh, u) || has_irregular_partners(surface, u, budget)) return;
+        if (done[u] || !wanted(u) || is_collinear(mesh, u, budget) || has_irregular_partners(surface, u, budget)) return;
         done[u] = true;
         queue.push_back(u);
       });

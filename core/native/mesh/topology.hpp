@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/budget.hpp"
 #include "base/edge_table.hpp"
 #include "base/mesh.hpp"
 
@@ -51,7 +52,8 @@ Mesh weld_and_sort(MeshView mesh);
 
 // The parts connected through shared edges of the welded mesh, in order of their first triangle. Edges on
 // the two sides of a crack of this width (mesh/cracks.hpp) count as shared. The wall of a cavity (mesh/cavities.hpp)
-// belongs to the part around it.
-std::vector<Mesh> split_components(const Mesh& mesh, double crack_width = 0);
+// belongs to the part around it. Throws BudgetSpent if finding cavities takes more than kMostSteps. poll: called now and
+// then.
+std::vector<Mesh> split_components(const Mesh& mesh, double crack_width = 0, const Poll& poll = {});
 
 }  // namespace satcheck

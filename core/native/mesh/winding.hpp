@@ -46,7 +46,7 @@ std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Ve
   const int to = orientation(a, b, c, far, budget);
   const int from = orientation(a, b, c, p, budget);
   if (from == 0 && to == 0) {
-    if (collinear(a, b, c)) return 0;
+    if (collinear(a, b, c, budget)) return 0;
     return std::nullopt;
   }
   if (from == to || from == 0 || to == 0) return 0;
@@ -130,10 +130,11 @@ template <class Point>
 std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
                                      Vec3 c, std::optional<std::uint32_t> known = {}, Budget* budget = nullptr) {
   if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return Beside{};
-  const std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p, known, budget);
-  const Vec3 normal = rounded_normal(a, b, c);
+  std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p, known, budget);
+  std::sort(here.begin(), here.end());
+  const Vec3 normal = rounded_normal(a, b, c, budget);
   const int axis = projection_axis(normal);
-  const int turn = orientation_2d(a, b, c, axis);
+  const int turn = orientation_2d(a, b, c, axis, budget);
   int step = 0;               // on the way from the front to the back
   bool on_an_edge = false;    // then several triangles make up one step
   for (const std::uint32_t t : here) {
@@ -145,12 +146,12 @@ std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Poi
     const Vec3 u[3] = {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
     for (int i = 0; i < 3; ++i) {
       if (orientation(a, b, c, u[i], budget) != 0) return std::nullopt;
-      on_an_edge = on_an_edge || orientation_2d_at(u[i], u[(i + 1) % 3], p, axis) == 0;
+      on_an_edge = on_an_edge || orientation_2d_at(u[i], u[(i + 1) % 3], p, axis, budget) == 0;
     }
-    step += turn * orientation_2d(u[0], u[1], u[2], axis);
+    step += turn * orientation_2d(u[0], u[1], u[2], axis, budget);
   }
   const auto elsewhere = [&](std::uint32_t t) {
-    return std::find(here.begin(), here.end(), t) == here.end();
+    return !std::binary_search(here.begin(), here.end(), t);
   };
   const Aabb& bounds = bvh.nodes[0].box;
   const Vec3 from = rounded_point(p);

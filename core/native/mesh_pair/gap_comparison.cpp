@@ -11,6 +11,9 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of two triangles in exact arithmetic.
+constexpr std::uint64_t kComparisonWork = 10'000;
+
 Aabb box_of(const Corners& t) {
   Aabb box;
   for (const Vec3& p : t) box.include(p);
@@ -40,7 +43,7 @@ class GapComparison {
     mesh_distance(a_, b_, length_ + 2 * chain_rounding(largest), [this](std::uint32_t t, std::uint32_t u) {
       include(t, u);
       return least_ < 0;
-    });
+    }, &budget_);
     return least_;
   }
 
@@ -48,6 +51,7 @@ class GapComparison {
   void include(std::uint32_t t, std::uint32_t u) {
     const Corners of_a = corners(a_.mesh, t), of_b = corners(b_.mesh, u);
     if (least_ < 0 || compare_along_axes(box_of(of_a), box_of(of_b), length_) >= least_) return;
+    budget_.spend(kComparisonWork);
     const std::vector<Vec3> points_a(of_a.begin(), of_a.end()), points_b(of_b.begin(), of_b.end());
     const int sign = compare_distance(ExactDifference(points_a, points_b), length_);
     least_ = std::min(least_, sign);
@@ -55,6 +59,7 @@ class GapComparison {
 
   const Surface &a_, &b_;
   double length_;
+  Budget budget_ = Budget::that_stops(kMostSteps);
   int least_ = 1;
 };
 

@@ -13,6 +13,9 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of a pair of nodes, of a pair of triangles whose boxes are near, and of their distance.
+constexpr std::uint64_t kNodesWork = 10, kBoxesWork = 10, kDistanceWork = 200;
+
 // The plane of a triangle. Most nearby triangles are clearly farther from it than a bound.
 class Beyond {
  public:
@@ -50,8 +53,8 @@ struct NodePair {
 
 class DistanceSearch {
  public:
-  DistanceSearch(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts)
-      : a_(a), b_(b), counts_(counts), bound_(limit * limit) {}
+  DistanceSearch(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts, Budget* budget)
+      : a_(a), b_(b), counts_(counts), budget_(budget), bound_(limit * limit) {}
 
   MeshDistance run() {
     if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return result_;
@@ -62,6 +65,7 @@ class DistanceSearch {
     while (!stack_.empty() && result_.distance > 0) {
       const NodePair pair = stack_.back();
       stack_.pop_back();
+      spend(budget_, kNodesWork);
       if (!(pair.distance_squared <= bound_)) continue;
       const BvhNode &m = a_.bvh.nodes[pair.a], &n = b_.bvh.nodes[pair.b];
       if (m.is_leaf() && n.is_leaf()) {
@@ -97,10 +101,12 @@ class DistanceSearch {
       const Beyond plane(ca);
       for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
         if (!(box_distance_squared(box, box_at(b_.bvh, b_.mesh, l)) <= bound_)) continue;
+        spend(budget_, kBoxesWork);
         const std::uint32_t tb = b_.bvh.order[l];
         const Corners cb = corners(b_.mesh, tb);
         const double reach = std::sqrt(bound_) + rounding_;
         if (plane.holds(cb, reach) || Beyond(cb).holds(ca, reach)) continue;
+        spend(budget_, kDistanceWork);
         const NearestPoints w = triangle_distance(ca, cb);
         const bool improves = w.distance_squared < bound_ ||
                               (w.distance_squared == bound_ && result_.triangle_a == kNoTriangle);
@@ -114,27 +120,30 @@ class DistanceSearch {
   const Surface& a_;
   const Surface& b_;
   const TrianglePairTest& counts_;
+  Budget* budget_;
   double bound_;
   double rounding_ = 0;  // of a distance that is computed
   MeshDistance result_;
   std::vector<NodePair> stack_;
 };
 
-MeshDistance distance_in_order(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts) {
+MeshDistance distance_in_order(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts,
+                               Budget* budget) {
   if (!counts) {
     if (const auto in_plane = prism_distance(a, b, limit)) return *in_plane;
   }
-  return DistanceSearch(a, b, limit, counts).run();
+  return DistanceSearch(a, b, limit, counts, budget).run();
 }
 
 }  // namespace
 
-MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts) {
+MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts,
+                           Budget* budget) {
   if (!(limit >= 0)) throw std::invalid_argument("the distance limit must not be negative");
-  if (comes_before(a, b)) return distance_in_order(a, b, limit, counts);
+  if (comes_before(a, b)) return distance_in_order(a, b, limit, counts, budget);
   TrianglePairTest mirrored;
   if (counts) mirrored = [&](std::uint32_t t, std::uint32_t u) { return counts(u, t); };
-  MeshDistance distance = distance_in_order(b, a, limit, mirrored);
+  MeshDistance distance = distance_in_order(b, a, limit, mirrored, budget);
   std::swap(distance.witness_a, distance.witness_b);
   std::swap(distance.triangle_a, distance.triangle_b);
   return distance;

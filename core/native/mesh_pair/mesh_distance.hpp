@@ -20,6 +20,7 @@ using TrianglePairTest = std::function<bool(std::uint32_t, std::uint32_t)>;
 
 // Distance of the two surfaces, 0 if they meet; a body inside the other has a distance, too. counts: only pairs that
 // pass this test are measured; empty: all.
-MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts = {});
+MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts = {},
+                           Budget* budget = nullptr);
 
 }  // namespace satcheck

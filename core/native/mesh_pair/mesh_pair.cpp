@@ -186,10 +186,11 @@ MeshRelation undecided() {
   return result;
 }
 
-// payer: pays for the steps, if any.
+// payer: pays for the steps, if any. most: of them.
 template <class Ask>
-MeshRelation within_budget(const Surface& a, const Surface& b, Budget* payer, const Poll& poll, Ask ask) {
-  Budget budget = Budget::that_stops(kPairWork + kWorkOfTriangle * (a.mesh.triangles.size() + b.mesh.triangles.size()), poll);
+MeshRelation within_budget(const Surface& a, const Surface& b, std::uint64_t most, Budget* payer, const Poll& poll, Ask ask) {
+  const std::uint64_t triangles = a.mesh.triangles.size() + b.mesh.triangles.size();
+  Budget budget = Budget::that_stops(std::min(kPairWork + kWorkOfTriangle * triangles, most), poll);
   MeshRelation result;
   try {
     result = ask(budget);
@@ -202,15 +203,16 @@ MeshRelation within_budget(const Surface& a, const Surface& b, Budget* payer, co
 
 }  // namespace
 
-MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll) {
-  return within_budget(a, b, nullptr, poll, [&](Budget& budget) { return relation_of(a, b, Wanted::relation, budget); });
+MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll, Budget* payer) {
+  const std::uint64_t most = payer != nullptr ? payer->left() : kMostSteps;
+  return within_budget(a, b, most, payer, poll, [&](Budget& budget) { return relation_of(a, b, Wanted::relation, budget); });
 }
 
 MeshRelation overlap_relation(const Surface& a, const Surface& b, Budget* budget) {
-  const Poll poll = [&](const SearchState&) {
-    if (budget != nullptr) budget->tell_again();
+  const Poll poll = [&](const SearchState& state) {
+    if (budget != nullptr) budget->tell_again(state.work);
   };
-  return within_budget(a, b, budget, poll, [&](Budget& steps) { return relation_of(a, b, Wanted::overlap, steps); });
+  return within_budget(a, b, kMostSteps, budget, poll, [&](Budget& steps) { return relation_of(a, b, Wanted::overlap, steps); });
 }
 
 MeshRelation closed_relation(const Surface& a, const Surface& b, Budget* budget) {

@@ -42,8 +42,9 @@ struct MeshRelation {
   std::size_t judged = 0;  // pairs of triangles in contact that needed samples
 };
 
-// The number of steps is limited, with room for each triangle. poll: called now and then.
-MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll = {});
+// The number of steps is limited, with room for each triangle. poll: called now and then. payer: pays for the steps, and
+// its last ones are a limit, too.
+MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll = {}, Budget* payer = nullptr);
 
 // The same if only a common interior matters, which is faster. `separated` may be touching. With `contains` or
 // `inside`, the inner body may reach the surface of the outer one.

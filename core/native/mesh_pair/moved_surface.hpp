@@ -19,7 +19,7 @@ class MovedSurface {
     moved_.open_parts = still.open_parts;
     moved_.sheets = still.sheets;
     moved_.outline = nullptr;  // it would not follow the moves
-    if (!still.solid) closed_ = std::make_unique<MovedSurface>(*closing_of(still, OpenParts::filled)->surface);
+    if (!still.solid) closed_ = std::make_shared<MovedSurface>(*closing_of(still, OpenParts::filled)->surface);
   }
 
   // The surface with t added to every coordinate, rounded once. Rounding keeps the order of coordinates, so the moved
@@ -42,7 +42,7 @@ class MovedSurface {
  private:
   std::shared_ptr<LazyClosings> moved_closings(Vec3 t, Budget* budget) {
     const Closing& still = *closing_of(still_, OpenParts::filled);
-    const std::shared_ptr<const Surface> closed{std::shared_ptr<void>{}, &closed_->at(t)};
+    const std::shared_ptr<const Surface> closed{closed_, &closed_->at(t, budget)};
     auto closings = std::make_shared<LazyClosings>();
     // The boxes of the holes are not moved: only their size is used.
     closings->made[static_cast<std::size_t>(OpenParts::filled)] =
@@ -53,7 +53,7 @@ class MovedSurface {
   const Surface& still_;
   std::shared_ptr<Mesh> moved_mesh_;
   Surface moved_;
-  std::unique_ptr<MovedSurface> closed_;  // of an open surface
+  std::shared_ptr<MovedSurface> closed_;  // of an open surface
 };
 
 }  // namespace satcheck

@@ -88,7 +88,7 @@ Holes holes_between(const ClosedPair& pair, Budget* budget) {
   return holes;
 }
 
-std::optional<double> distance_of_holes(const Surface& a, const Surface& b, double limit) {
+std::optional<double> distance_of_holes(const Surface& a, const Surface& b, double limit, Budget* budget) {
   const ClosedPair pair(a, b, OpenParts::filled);
   static const std::vector<Surface> none;
   const auto& hulls_a = pair.closing_a() ? pair.closing_a()->hulls : none;
@@ -96,7 +96,7 @@ std::optional<double> distance_of_holes(const Surface& a, const Surface& b, doub
   double least = limit;
   const auto look = [&](const Surface& hull, const Surface& other) {
     if (hull.bvh.nodes.empty() || other.bvh.nodes.empty()) return;
-    least = std::fmin(least, mesh_distance(hull, other, least).distance);
+    least = std::fmin(least, mesh_distance(hull, other, least, {}, budget).distance);
   };
   for (const Surface& hull : hulls_a) look(hull, b);
   for (const Surface& hull : hulls_b) look(hull, a);

@@ -34,6 +34,6 @@ struct Holes {
 Holes holes_between(const ClosedPair& pair, Budget* budget = nullptr);
 
 // The distance of the hulls of holes from the other surface and its hulls; empty if it is not less than `limit`.
-std::optional<double> distance_of_holes(const Surface& a, const Surface& b, double limit);
+std::optional<double> distance_of_holes(const Surface& a, const Surface& b, double limit, Budget* budget = nullptr);
 
 }  // namespace satcheck

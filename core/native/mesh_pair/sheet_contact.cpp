@@ -63,7 +63,7 @@ class Sheets {
     const Corners c = corners(surface_.mesh, t);
     known_[t] = {};
     // A triangle that meets no other has material on one side.
-    if (collinear(c[0], c[1], c[2]) || !has_irregular_partners(surface_, t, budget_)) return;
+    if (collinear(c[0], c[1], c[2], budget_) || !has_irregular_partners(surface_, t, budget_)) return;
     const PlaneCells cells({&surface_}, {0, t}, SinglePoints::left_out, budget_);
     const auto sheet_of = [&](const std::vector<std::uint32_t>& outlines) {
       Sheet sheet{false, true};
@@ -172,14 +172,15 @@ class Hinges {
 };
 
 // Whether the segment p q, in the plane of t, passes through the open triangle.
-bool runs_through(Vec3 p, Vec3 q, const Corners& t) {
-  const int axis = projection_axis(rounded_normal(t[0], t[1], t[2]));
-  const int turn = orientation_2d(t[0], t[1], t[2], axis);
+bool runs_through(Vec3 p, Vec3 q, const Corners& t, Budget* budget) {
+  const int axis = projection_axis(rounded_normal(t[0], t[1], t[2], budget));
+  const auto left_of = [&](Vec3 from, Vec3 to, Vec3 x) { return orientation_2d(from, to, x, axis, budget); };
+  const int turn = left_of(t[0], t[1], t[2]);
   int left = 0, right = 0;
   for (int i = 0; i < 3; ++i) {
     const Vec3 u = t[i], v = t[(i + 1) % 3];
-    if (turn * orientation_2d(u, v, p, axis) <= 0 && turn * orientation_2d(u, v, q, axis) <= 0) return false;
-    const int side = orientation_2d(p, q, u, axis);
+    if (turn * left_of(u, v, p) <= 0 && turn * left_of(u, v, q) <= 0) return false;
+    const int side = left_of(p, q, u);
     left += side > 0 ? 1 : 0;
     right += side < 0 ? 1 : 0;
   }
@@ -187,25 +188,25 @@ bool runs_through(Vec3 p, Vec3 q, const Corners& t) {
 }
 
 // Collinear segments that share more than a point.
-bool share_length(const Hinge& a, const Hinge& b) {
-  if (!collinear(a.p, a.q, b.p) || !collinear(a.p, a.q, b.q)) return false;
+bool share_length(const Hinge& a, const Hinge& b, Budget* budget) {
+  if (!collinear(a.p, a.q, b.p, budget) || !collinear(a.p, a.q, b.q, budget)) return false;
   const int axis = a.p.x != a.q.x ? 0 : a.p.y != a.q.y ? 1 : 2;
   const auto low = [&](const Hinge& h) { return std::fmin(h.p[axis], h.q[axis]); };
   const auto high = [&](const Hinge& h) { return std::fmax(h.p[axis], h.q[axis]); };
   return low(a) < high(b) && low(b) < high(a);
 }
 
-bool same_half_plane(Vec3 p, Vec3 q, Vec3 u, Vec3 v) {
-  if (orientation(p, q, u, v) != 0) return false;
+bool same_half_plane(Vec3 p, Vec3 q, Vec3 u, Vec3 v, Budget* budget) {
+  if (orientation(p, q, u, v, budget) != 0) return false;
   for (int axis = 0; axis < 3; ++axis) {
-    const int side = orientation_2d(p, q, u, axis);
-    if (side != 0) return side == orientation_2d(p, q, v, axis);
+    const int side = orientation_2d(p, q, u, axis, budget);
+    if (side != 0) return side == orientation_2d(p, q, v, axis, budget);
   }
   return true;
 }
 
 // Whether two wings of A and two of B alternate. Wings in one half-plane count once, and not if both have one there.
-bool alternate(const Hinge& a, const Hinge& b) {
+bool alternate(const Hinge& a, const Hinge& b, Budget* budget) {
   const Vec3 p = a.p, q = a.q;
   struct Wing {
     Vec3 at;
@@ -214,24 +215,24 @@ bool alternate(const Hinge& a, const Hinge& b) {
   std::vector<Wing> wings;
   for (const Hinge* hinge : {&a, &b}) {
     for (const Vec3& at : hinge->wings) {
-      if (!collinear(p, q, at)) wings.push_back({at, hinge == &a});
+      if (!collinear(p, q, at, budget)) wings.push_back({at, hinge == &a});
     }
   }
   if (wings.empty()) return false;
   const Vec3 first = wings[0].at;
   const auto quarter = [&](Vec3 at) {
-    const int turn = orientation(p, q, first, at);
-    return turn == 0 ? (same_half_plane(p, q, first, at) ? 0 : 2) : turn > 0 ? 1 : 3;
+    const int turn = orientation(p, q, first, at, budget);
+    return turn == 0 ? (same_half_plane(p, q, first, at, budget) ? 0 : 2) : turn > 0 ? 1 : 3;
   };
   std::stable_sort(wings.begin(), wings.end(), [&](const Wing& u, const Wing& v) {
     const int quarter_u = quarter(u.at), quarter_v = quarter(v.at);
-    return quarter_u != quarter_v ? quarter_u < quarter_v : orientation(p, q, u.at, v.at) > 0;
+    return quarter_u != quarter_v ? quarter_u < quarter_v : orientation(p, q, u.at, v.at, budget) > 0;
   });
   std::vector<bool> around;  // whose wing it is
   for (std::size_t i = 0; i < wings.size();) {
     bool any[2] = {};
     const std::size_t start = i;
-    for (; i < wings.size() && same_half_plane(p, q, wings[start].at, wings[i].at); ++i) any[wings[i].of_a ? 0 : 1] = true;
+    for (; i < wings.size() && same_half_plane(p, q, wings[start].at, wings[i].at, budget); ++i) any[wings[i].of_a ? 0 : 1] = true;
     if (any[0] != any[1]) around.push_back(any[0]);
   }
   int changes = 0;
@@ -239,15 +240,15 @@ bool alternate(const Hinge& a, const Hinge& b) {
   return changes >= 4;
 }
 
-bool crosses_triangle(const Hinge& hinge, const Corners& t) {
-  const auto side = [&](Vec3 p) { return orientation(t[0], t[1], t[2], p); };
-  if (collinear(t[0], t[1], t[2]) || side(hinge.p) != 0 || side(hinge.q) != 0) return false;
+bool crosses_triangle(const Hinge& hinge, const Corners& t, Budget* budget) {
+  const auto side = [&](Vec3 p) { return orientation(t[0], t[1], t[2], p, budget); };
+  if (collinear(t[0], t[1], t[2], budget) || side(hinge.p) != 0 || side(hinge.q) != 0) return false;
   bool above = false, below = false;
   for (const Vec3& w : hinge.wings) {
     above = above || side(w) > 0;
     below = below || side(w) < 0;
   }
-  return above && below && runs_through(hinge.p, hinge.q, t);
+  return above && below && runs_through(hinge.p, hinge.q, t, budget);
 }
 
 // A triangle of A and one of B that meet at an edge along which the sheets cross.
@@ -257,14 +258,14 @@ std::optional<ContactPair> crossing_at_edge(const Surface& a, const Surface& b, 
     const std::vector<std::uint32_t> partners = of_a.of(h.triangles);
     spend(budget, (kHingeWork + kWingWork * h.wings.size()) * partners.size());
     for (const std::uint32_t t : partners) {
-      if (crosses_triangle(h, corners(b.mesh, t))) return ContactPair{of_a.with(h.triangles, t), t};
+      if (crosses_triangle(h, corners(b.mesh, t), budget)) return ContactPair{of_a.with(h.triangles, t), t};
     }
     for (const std::uint32_t number : hinges_b.at(partners)) {
       const Hinge& k = hinges_b.all()[number];
       spend(budget, kHingeWork);
-      if (!share_length(h, k)) continue;
+      if (!share_length(h, k, budget)) continue;
       spend(budget, kWingWork * (h.wings.size() + k.wings.size()));
-      if (!alternate(h, k)) continue;
+      if (!alternate(h, k, budget)) continue;
       for (const std::uint32_t t : k.triangles) {
         if (std::binary_search(partners.begin(), partners.end(), t)) return ContactPair{of_a.with(h.triangles, t), t};
       }
@@ -274,7 +275,7 @@ std::optional<ContactPair> crossing_at_edge(const Surface& a, const Surface& b, 
     const std::vector<std::uint32_t> partners = of_b.of(k.triangles);
     spend(budget, (kHingeWork + kWingWork * k.wings.size()) * partners.size());
     for (const std::uint32_t t : partners) {
-      if (crosses_triangle(k, corners(a.mesh, t))) return ContactPair{t, of_b.with(k.triangles, t)};
+      if (crosses_triangle(k, corners(a.mesh, t), budget)) return ContactPair{t, of_b.with(k.triangles, t)};
     }
   }
   return std::nullopt;
@@ -290,13 +291,13 @@ Vec3 unit_normal(const Corners& t) {
 
 // Whether the plane of t separates the two triangles, so that A leaves B when it moves along `way`. sign: 1 if t
 // belongs to A, -1 if it belongs to B.
-bool leaves_over(const Corners& t, const Corners& other, double sign, Vec3 way) {
+bool leaves_over(const Corners& t, const Corners& other, double sign, Vec3 way, Budget* budget) {
   const double along = sign * dot(unit_normal(t), way);
   if (std::fabs(along) < kSurelyAlong) return false;
   // If A moves to the front of its own triangle (along > 0), B has to lie behind it or in its plane.
   const int free_side = along > 0 ? -1 : 1;
   return std::all_of(other.begin(), other.end(), [&](Vec3 p) {
-    const int side = orientation(t[0], t[1], t[2], p);
+    const int side = orientation(t[0], t[1], t[2], p, budget);
     return side == 0 || side == free_side;
   });
 }
@@ -347,7 +348,7 @@ void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<C
   for (const auto& [ta, tb] : pairs) {
     spend(budget, kWayWork);
     const Corners c = corners(a.mesh, ta);
-    if (coplanar_overlap(c, corners(b.mesh, tb)) != CoplanarOverlap::none) take(unit_normal(c), flat);
+    if (coplanar_overlap(c, corners(b.mesh, tb), budget) != CoplanarOverlap::none) take(unit_normal(c), flat);
   }
   if (flat.empty()) return;
   const std::vector<Vec3> ways = ways_out(flat);
@@ -355,7 +356,7 @@ void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<C
     return std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
       spend(budget, kWayWork);
       const Corners c = corners(a.mesh, pair.first), d = corners(b.mesh, pair.second);
-      return leaves_over(c, d, 1, way) || leaves_over(d, c, -1, way);
+      return leaves_over(c, d, 1, way, budget) || leaves_over(d, c, -1, way, budget);
     });
   });
   if (!frees) samples.fail();

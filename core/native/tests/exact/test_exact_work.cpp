@@ -37,6 +37,23 @@ void test_signs() {
   CHECK(work_in_plane(1e-100) > work_in_plane(0.1));
 }
 
+void test_signs_in_a_plane() {
+  const auto works = [](Vec3 a, Vec3 b, Vec3 c) {
+    const std::uint64_t of_sign = work_of([&](Budget* budget) { orientation_2d(a, b, c, 2, budget); });
+    const std::uint64_t of_line = work_of([&](Budget* budget) { collinear(a, b, c, budget); });
+    CHECK(of_line >= of_sign);
+    CHECK((of_sign == 0) == (work_of([&](Budget* budget) { rounded_normal(a, b, c, budget); }) == 0));
+    return of_sign;
+  };
+  CHECK(works({0, 0, 0}, {1, 0.1, 0}, {0.25, 0.5, 0}) == 0);
+  const auto on_a_line = [&](double slope) { return works({0, 0, 0}, {0.7, 0.7 * slope, 0.7 * slope}, {2.1, 2.1 * slope, 2.1 * slope}); };
+  CHECK(on_a_line(0.1) > 0);
+  CHECK(on_a_line(1e-250) > on_a_line(0.1));
+  // Triangles in one plane, whose edges cross: only the plane signs are costly.
+  const Corners low{Vec3{0, 0, 0}, Vec3{0.7, 0.07, 0}, Vec3{0, 1, 0}}, on_edge{Vec3{1.4, 0.14, 0}, Vec3{2.1, 0.21, 0}, Vec3{2, 2, 0}};
+  CHECK(work_of([&](Budget* budget) { share_area(low, on_edge, 2, budget); }) > 0);
+}
+
 void test_points() {
   const auto sign_with = [](double height) {
     const Vec3 a{0, 0, 0}, b{1, 0, height}, c{0, 1, 0.3};
@@ -51,5 +68,6 @@ void test_points() {
 
 UNIT(exact_work) {
   test_signs();
+  test_signs_in_a_plane();
   test_points();
 }

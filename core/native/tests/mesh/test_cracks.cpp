@@ -48,9 +48,32 @@ void a_width_as_large_as_the_mesh_closes_nothing() {
   CHECK(seal_cracks(mesh, 0.5) == 0);
 }
 
+// A strip of squares and another one beside it, whose vertices differ in the last digit.
+void a_seam_is_closed_along_any_axis() {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto turned = [&](double along, double across) { return axis == 0 ? Vec3{along, across, 0} : axis == 1 ? Vec3{0, along, across} : Vec3{across, 0, along}; };
+    Mesh mesh;
+    for (const double shift : {0.0, 1.0 + 1e-9}) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (std::uint32_t i = 0; i <= 40; ++i) {
+        for (const double across : {0.0, 1.0}) mesh.vertices.push_back(turned(i, across + shift));
+      }
+      for (std::uint32_t i = 0; i < 40; ++i) {
+        const std::uint32_t p = first + 2 * i;
+        mesh.triangles.insert(mesh.triangles.end(), {{p, p + 2, p + 3}, {p, p + 3, p + 1}});
+      }
+    }
+    const std::size_t before = mesh.triangles.size();
+    CHECK(seal_cracks(mesh, 1e-8) == 1);  // two rims become one
+    CHECK(boundary_loops(mesh, EdgeTable(mesh.vertices.size(), mesh.triangles)).size() == 1);
+    CHECK(mesh.triangles.size() > before);
+  }
+}
+
 }  // namespace
 
 UNIT(cracks) {
+  a_seam_is_closed_along_any_axis();
   a_t_junction_is_closed_within_the_width();
   what_is_wider_stays();
   a_width_as_large_as_the_mesh_closes_nothing();

@@ -71,6 +71,23 @@ void broken_boxes() {
   CHECK(t.degenerate_triangles == 1 && t.solid);
 }
 
+void orienting_counts_its_steps() {
+  Mesh boxes = box({10, 0, 0}, {20, 10, 10});  // beside boxes that face inward, each of which crosses all others
+  for (int i = 0; i < 40; ++i) append(boxes, reversed(box(Vec3{1, 1, 1} * (0.01 * i), Vec3{1, 1, 1} * (0.01 * i + 1))));
+  Budget few = Budget::that_stops(1000), enough = Budget::that_stops(kMostSteps);
+  const auto stops = [&] {
+    try {
+      orient(boxes, &few);
+    } catch (const BudgetSpent&) {
+      return true;
+    }
+    return false;
+  };
+  CHECK(stops());
+  CHECK(orient(boxes, &enough).triangles == orient(boxes).triangles);
+  CHECK(enough.spent() > 1000 && enough.left() > 0);
+}
+
 void orientation_of_shells() {
   const Mesh outer = box({0, 0, 0}, {10, 10, 10}), inner = box({4, 4, 4}, {6, 6, 6});
   CHECK(measure_topology(orient(reversed(unit))).volume == 1);
@@ -212,6 +229,7 @@ void a_million_triangles() {
 UNIT(topology) {
   counts_of_a_box();
   broken_boxes();
+  orienting_counts_its_steps();
   orientation_of_shells();
   inside_out_box_in_a_notch();
   moebius_band_stays();
