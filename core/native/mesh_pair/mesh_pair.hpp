@@ -42,7 +42,10 @@ struct MeshRelation {
   std::size_t judged = 0;  // pairs of triangles in contact that needed samples
 };
 
-// The number of steps is limited, with room for each triangle. poll: called now and then.
+// The steps that a question about a pair may take, with room for each triangle. poll: called now and then.
+Budget budget_of_pair(const Surface& a, const Surface& b, Poll poll);
+
+// Within budget_of_pair().
 MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll = {});
 
 // The same if only a common interior matters, which is faster. `separated` may be touching. With `contains` or
