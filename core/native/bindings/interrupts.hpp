@@ -22,6 +22,9 @@ inline void raise_interrupts() {
   if (signalled()) throw nanobind::python_error();
 }
 
+// Of a query that has no interval.
+inline void poll_interrupts(const SearchState&) { raise_interrupts(); }
+
 // Called with the interval so far, and with the share of the work that is spent; may be empty.
 using Progress = std::function<void(double lower, double upper, double share)>;
 

@@ -115,7 +115,7 @@ that of the surfaces without fills. decided: False if that takes more steps than
       .def_ro("triangle_tests", &MeshRelation::triangle_tests)
       .def_ro("edge_tests", &MeshRelation::edge_tests, "Of the outlines of prisms; None for other bodies.");
   m.def("mesh_relation",
-        [](const Surface& a, const Surface& b) { return mesh_relation(a, b, [](const SearchState&) { raise_interrupts(); }); },
+        [](const Surface& a, const Surface& b) { return mesh_relation(a, b, poll_interrupts); },
         "a"_a, "b"_a, ReleaseGil(),
         R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
 "touching", "penetrating" (interiors overlap, or a surface crosses a sheet), "contains" (b strictly inside a),

@@ -8,6 +8,9 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of two triangles that meet, of a half-edge of a triangle that is cut, and of a half-plane at a stretch.
+constexpr std::uint64_t kMeetingWork = 4000, kHalfEdgeWork = 300, kHalfPlaneWork = 500;
+
 template <class T>
 void sort_and_drop_copies(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
@@ -16,8 +19,8 @@ void sort_and_drop_copies(std::vector<T>& values) {
 
 }  // namespace
 
-SpaceCells::SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs)
-    : a_(a), b_(b), nodes_(a.mesh, b.mesh) {
+SpaceCells::SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget)
+    : a_(a), b_(b), budget_(budget), nodes_(a.mesh, b.mesh) {
   meet(max_pairs);
   for (int mesh = 0; mesh < 2 && complete_; ++mesh) cut(mesh);
   shells_ = DisjointSets(2 * faces_.size());
@@ -27,9 +30,10 @@ SpaceCells::SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs
 
 void SpaceCells::meet(std::size_t max_pairs) {
   for (const int mesh : {0, 1}) cut_[mesh].assign(surface(mesh).mesh.triangles.size(), kNotCut);
-  const std::vector<ContactPair> pairs = find_contacts(a_, b_, AtCrossing::go_on).contacts;
-  complete_ = pairs.size() <= max_pairs;
+  const std::vector<ContactPair> pairs = find_contacts(a_, b_, AtCrossing::go_on, budget_).contacts;
+  complete_ = within_limits_ = pairs.size() <= max_pairs;
   if (!complete_) return;
+  spend(budget_, kMeetingWork * pairs.size());
   for (const ContactPair& pair : pairs) {
     if (repeats_a_corner(a_.mesh.triangles[pair.a]) || repeats_a_corner(b_.mesh.triangles[pair.b])) continue;
     const TriangleMeeting meeting = meet_triangles(a_.mesh, pair.a, b_.mesh, pair.b);
@@ -68,8 +72,9 @@ std::uint32_t SpaceCells::cut_triangle(int mesh, std::uint32_t triangle) {
   if (!complete_) return 0;
   const Border border = border_of(mesh, triangle);
   cut_[mesh][triangle] = static_cast<std::uint32_t>(cuts_.size());
-  const TriangleFaces& faces = cuts_.emplace_back(nodes_, c, border.nodes, inner_stretches(mesh, triangle));
+  const TriangleFaces& faces = cuts_.emplace_back(nodes_, c, border.nodes, inner_stretches(mesh, triangle), budget_);
   complete_ = complete_ && faces.complete();
+  spend(budget_, kHalfEdgeWork * 2 * faces.stretches().size());
   for (std::uint32_t h = 0; h < 2 * faces.stretches().size(); ++h) {
     if (faces.left(h) == TriangleFaces::kOutside) continue;
     const auto [from, to] = faces.stretches()[h / 2];
@@ -146,6 +151,7 @@ void SpaceCells::join_at_stretches() {
     for (const NodePair at = ends(half_planes_[i]); i < half_planes_.size() && ends(half_planes_[i]) == at; ++i) {
       here.push_back(half_planes_[i]);
     }
+    spend(budget_, kHalfPlaneWork * here.size());
     const auto groups = here.size() == 2 ? std::optional(std::vector<std::vector<HalfPlane>>{{here[0]}, {here[1]}})
                                          : order_around(a_.mesh, b_.mesh, nodes_, here);
     complete_ = groups && groups->size() > 1;

@@ -32,10 +32,12 @@ struct Wedge {
 class SpaceCells {
  public:
   // For surfaces without collinear triangles, see without_slivers(). complete() is false if more than `max_pairs` pairs
-  // of triangles meet, or if a surface meets itself at the other one.
-  SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs);
+  // of triangles meet, or if a surface meets itself at the other one. Throws BudgetSpent.
+  SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget);
 
   bool complete() const { return complete_; }
+  bool within_limits() const { return within_limits_; }
+  Budget* budget() const { return budget_; }
   const Surface& surface(int mesh) const { return mesh == 0 ? a_ : b_; }
   const MeetingNodes& nodes() const { return nodes_; }
   const std::vector<CellFace>& faces() const { return faces_; }
@@ -78,6 +80,7 @@ class SpaceCells {
   void unite_shared(const std::vector<HalfPlane>& half_planes);
 
   const Surface &a_, &b_;
+  Budget* budget_;
   MeetingNodes nodes_;
   std::vector<std::pair<std::uint32_t, NodePair>> segments_[2];  // by triangle
   std::vector<std::uint32_t> cut_[2];                            // of each triangle: which of the cuts_, or kNotCut
@@ -87,7 +90,7 @@ class SpaceCells {
   std::vector<HalfPlane> half_planes_;
   std::vector<Wedge> wedges_;
   DisjointSets shells_{0};
-  bool complete_ = true;
+  bool complete_ = true, within_limits_ = true;
 };
 
 }  // namespace satcheck

@@ -13,11 +13,14 @@ namespace {
 // one.
 constexpr int kWays = 256;
 
+// Measured steps of a way and a stretch.
+constexpr std::uint64_t kStretchWork = 200;
+
 }  // namespace
 
 TriangleFaces::TriangleFaces(const MeetingNodes& nodes, const Corners& triangle,
-                             const std::vector<std::uint32_t>& border, const std::vector<NodePair>& inner)
-    : nodes_(&nodes), corners_(triangle), axis_(projection_axis(rounded_normal(triangle[0], triangle[1], triangle[2]))),
+                             const std::vector<std::uint32_t>& border, const std::vector<NodePair>& inner, Budget* budget)
+    : nodes_(&nodes), corners_(triangle), budget_(budget), axis_(projection_axis(rounded_normal(triangle[0], triangle[1], triangle[2]))),
       turn_(orientation_2d(triangle[0], triangle[1], triangle[2], axis_)), border_count_(border.size()) {
   for (std::size_t k = 0; k < border.size(); ++k) stretches_.emplace_back(border[k], border[(k + 1) % border.size()]);
   stretches_.insert(stretches_.end(), inner.begin(), inner.end());
@@ -133,6 +136,7 @@ ExactPoint TriangleFaces::beyond(const ExactPoint& from, int attempt) const {
 // inside a stretch, which the segment only leaves.
 std::optional<std::vector<TriangleFaces::Crossing>> TriangleFaces::crossings(const ExactPoint& from,
                                                                              const ExactPoint& to) const {
+  spend(budget_, kStretchWork * stretches_.size());
   std::vector<Crossing> met;
   for (std::uint32_t k = 0; k < stretches_.size(); ++k) {
     const ExactPoint &p = node(stretches_[k].first), &q = node(stretches_[k].second);

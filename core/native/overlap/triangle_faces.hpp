@@ -22,7 +22,7 @@ class TriangleFaces {
   // border: the nodes around the triangle, counter-clockwise. inner: stretches within it, each once; they meet only at
   // common nodes. The triangle must not be collinear.
   TriangleFaces(const MeetingNodes& nodes, const Corners& triangle, const std::vector<std::uint32_t>& border,
-                const std::vector<NodePair>& inner);
+                const std::vector<NodePair>& inner, Budget* budget);
 
   // Whether all faces are known. False: no tried segment across the triangle avoids all nodes.
   bool complete() const { return complete_; }
@@ -61,6 +61,7 @@ class TriangleFaces {
 
   const MeetingNodes* nodes_;
   Corners corners_;
+  Budget* budget_;
   int axis_, turn_;
   std::vector<NodePair> stretches_;
   std::size_t border_count_;
