@@ -5,7 +5,8 @@
 // closed surfaces that bound the cells. Each of these is a shell. A cell with cavities has several shells.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -60,20 +61,14 @@ class SpaceCells {
  private:
   static constexpr std::uint32_t kNotCut = 0xFFFFFFFF;
 
-  // The nodes around a triangle, and for each node the edge that contains the stretch from it.
-  struct Border {
-    std::vector<std::uint32_t> nodes;
-    std::vector<int> edges;
-  };
-
   // Calls visit(from, to) for the stretches around a face, which is on their left; rounded ends.
   template <class Visit>
   void visit_outline(std::uint32_t face, Visit visit) const;
   void meet(std::size_t max_pairs);
   void cut(int mesh);
   std::uint32_t cut_triangle(int mesh, std::uint32_t triangle);
-  Border border_of(int mesh, std::uint32_t triangle) const;
-  std::vector<NodePair> inner_stretches(int mesh, std::uint32_t triangle) const;
+  std::array<TriangleFaces::TriangleSide, 3> sides_of(int mesh, std::uint32_t triangle) const;
+  std::vector<NodePair> segments_in(int mesh, std::uint32_t triangle) const;
   void join_at_edges(int mesh);
   void join_at_stretches();
   void join(std::uint32_t side, std::uint32_t other, std::uint32_t low, std::uint32_t high);
@@ -85,7 +80,7 @@ class SpaceCells {
   std::vector<std::pair<std::uint32_t, NodePair>> segments_[2];  // by triangle
   std::vector<std::uint32_t> cut_[2];                            // of each triangle: which of the cuts_, or kNotCut
   std::vector<std::uint32_t> first_face_[2];                     // of each triangle
-  std::vector<TriangleFaces> cuts_;
+  std::deque<TriangleFaces> cuts_;
   std::vector<CellFace> faces_;
   std::vector<HalfPlane> half_planes_;
   std::vector<Wedge> wedges_;
