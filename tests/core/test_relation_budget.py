@@ -82,18 +82,18 @@ def test_ctrl_c_ends_climbs(threads: int) -> None:
 
 @on_linux
 def test_ctrl_c_ends_contacts() -> None:
-    surfaces = [core.Surface(soup(TOO_MANY, seed), False) for seed in (1, 2)]
+    a, b = (core.Surface(soup(TOO_MANY, seed), False) for seed in (1, 2))
     with pytest.raises(KeyboardInterrupt), ctrl_c_after(0.5):
-        core.surface_intersection(*surfaces, 10**9)
+        core.surface_intersection(a, b, 10**9)
 
 
 @on_linux
 @pytest.mark.parametrize("ask", [core.overlap_components, core.passes_through])
 def test_ctrl_c_ends_components(ask: Callable[[core.Surface, core.Surface, int], object]) -> None:
     """Prisms that cross each other in a lattice: some 10 ** 6 pairs of triangles meet."""
-    surfaces = [core.Surface(bars(200, axis), True) for axis in (0, 1)]
+    a, b = (core.Surface(bars(200, axis), True) for axis in (0, 1))
     with pytest.raises(KeyboardInterrupt), ctrl_c_after(0.5):
-        ask(*surfaces, 10**9)
+        ask(a, b, 10**9)
 
 
 @on_linux
