@@ -15,6 +15,7 @@ from satcheck.report.components import Component, Components, Passing
 from satcheck.report.report import OVERLAPS, Vector
 
 STAGE = "components"
+TOO_MUCH = "too many triangles meet, or it takes more steps than a pair may"
 
 
 class Ball(Struct, frozen=True):
@@ -43,8 +44,11 @@ def find_components(draft: Draft) -> None:
         for component, ball in zip(overlap.components, _balls(pair, overlap), strict=True)
     ]
     items.sort(key=lambda item: (item.thickness_bounds or (0.0, 0.0))[1], reverse=True)
-    detail = "" if overlap.resolved else "there may be others: a surface meets itself"
-    draft.record(STAGE, f"{len(items)} found", detail)
+    if overlap.within_limits:
+        detail = "" if overlap.resolved else "there may be others: a surface meets itself"
+        draft.record(STAGE, f"{len(items)} found", detail)
+    else:
+        draft.record(STAGE, "not resolved", TOO_MUCH)
     draft.components = Components(tuple(items), overlap.resolved)
 
 

@@ -13,6 +13,8 @@ from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 # Pairs of triangles that may meet: a report about more is nothing that anybody could use. Each
 # takes 0.2 kB on its way, 0.7 kB where it shares a patch: 2 GB at most.
 MAX_TRIANGLE_PAIRS = 3_000_000
+TOO_MANY_PAIRS = f"more than {MAX_TRIANGLE_PAIRS:,} pairs of triangles meet"
+TOO_MANY_STEPS = "finding where the triangles meet takes more steps than a pair may"
 # Surfaces without a common point.
 APART = frozenset({"separated", "contains", "inside"})
 
@@ -33,10 +35,9 @@ def find_contacts(draft: Draft) -> None:
         return
     pair = draft.pair
     found = contacts_of(pair.a.surface(), pair.b.surface(), pair.settings.contact_points)
-    if found is None:
-        reason = f"more than {MAX_TRIANGLE_PAIRS:,} pairs of triangles meet"
-        draft.record("contacts", "too many", reason)
-        draft.complain("too-many-contacts", None, f"{pair.a.id} and {pair.b.id}: {reason}")
+    if isinstance(found, str):
+        draft.record("contacts", "too many", found)
+        draft.complain("too-many-contacts", None, f"{pair.a.id} and {pair.b.id}: {found}")
         return
     draft.contacts, totals = found, found.totals
     draft.record(
@@ -47,12 +48,12 @@ def find_contacts(draft: Draft) -> None:
     )
 
 
-def contacts_of(a: core.Surface, b: core.Surface, limit: int) -> Contacts | None:
-    """Return where the surfaces meet; None: too many triangles do. limit: points in all lists
-    together, and triangle pairs. Curves and patches come whole."""
+def contacts_of(a: core.Surface, b: core.Surface, limit: int) -> Contacts | str:
+    """Return where the surfaces meet, or the reason why there is no list. limit: points in all
+    lists together, and triangle pairs. Curves and patches come whole."""
     intersection = core.surface_intersection(a, b, MAX_TRIANGLE_PAIRS)
     if not intersection.complete:
-        return None
+        return TOO_MANY_PAIRS if intersection.within_budget else TOO_MANY_STEPS
     curves, patches, points, pairs = (
         intersection.curves,
         intersection.patches,

@@ -222,7 +222,7 @@ def _gap(finding: Finding) -> tuple[Floats, Floats] | None:
 
 def _meeting_lines(a: core.Surface, b: core.Surface) -> list[Floats]:
     contacts = contacts_of(a, b, MOST_POINTS)
-    if contacts is None:
+    if isinstance(contacts, str):
         return []
     curves = [[*curve.points, *curve.points[: curve.closed]] for curve in contacts.curves]
     outlines = (outline for patch in contacts.patches for outline in patch.outlines)

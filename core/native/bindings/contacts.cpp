@@ -6,8 +6,10 @@
 #include <tuple>
 #include <vector>
 
+#include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
 #include "mesh_pair/covers_once.hpp"
+#include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/surface_intersection.hpp"
 
 namespace nb = nanobind;
@@ -51,7 +53,8 @@ a's surface, unit. opposed: whether the surfaces face each other there.)")
       .def_ro("area", &ContactPatch::area);
   nb::class_<SurfaceIntersection>(m, "SurfaceIntersection",
                                   R"(The common points of two surfaces. curves: by decreasing length; patches: by decreasing area; points: isolated
-ones. triangle_pairs: all that meet. complete: False if more pairs meet than allowed; nothing is listed then.)")
+ones. triangle_pairs: all that meet. complete: False if more pairs meet than allowed, or if it takes more steps than a
+pair may; within_budget is False then. Nothing is listed in both cases.)")
       .def_ro("curves", &SurfaceIntersection::curves, nb::rv_policy::reference_internal)
       .def_ro("patches", &SurfaceIntersection::patches, nb::rv_policy::reference_internal)
       .def_prop_ro("points", [](const SurfaceIntersection& s) { return to_tuples(s.points); })
@@ -62,9 +65,13 @@ ones. triangle_pairs: all that meet. complete: False if more pairs meet than all
                      for (const ContactPair& p : s.triangle_pairs) pairs.emplace_back(p.a, p.b);
                      return pairs;
                    })
-      .def_ro("complete", &SurfaceIntersection::complete);
-  m.def("surface_intersection", &surface_intersection, "a"_a, "b"_a, "max_pairs"_a,
-        nb::call_guard<nb::gil_scoped_release>(),
+      .def_ro("complete", &SurfaceIntersection::complete)
+      .def_ro("within_budget", &SurfaceIntersection::within_budget);
+  const auto within_budget = [](const Surface& a, const Surface& b, std::size_t max_pairs) {
+    Budget budget = budget_of_pair(a, b, interrupting());
+    return surface_intersection(a, b, max_pairs, &budget);
+  };
+  m.def("surface_intersection", within_budget, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(All common points of two placed surfaces. Which triangles meet and how the pieces join is decided by exact
 predicates; points are exact intersections, each coordinate rounded once. Solid or not makes no difference.)");
   m.def("covers_once", &covers_once, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),

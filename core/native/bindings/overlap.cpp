@@ -5,7 +5,9 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
+#include "mesh_pair/mesh_pair.hpp"
 #include "overlap/overlap_components.hpp"
 
 namespace nb = nanobind;
@@ -31,17 +33,24 @@ it is not resolved. resolved: False if a surface meets itself here.)")
       .def_ro("b_through_a", &OverlapComponent::b_through_a)
       .def_ro("resolved", &OverlapComponent::resolved);
   nb::class_<OverlapComponents>(m, "OverlapComponents",
-                                "components: by the least corner of their bounds. resolved: False if their number may differ.")
+                                R"(components: by the least corner of their bounds. resolved: False if their number may differ. within_limits: False if
+too many pairs of triangles meet, or if it takes more steps than a pair may; nothing is listed then.)")
       .def_ro("resolved", &OverlapComponents::resolved)
+      .def_ro("within_limits", &OverlapComponents::within_limits)
       .def_ro("components", &OverlapComponents::components, nb::rv_policy::reference_internal);
   const auto described = [](const Surface& a, const Surface& b, std::size_t max_pairs) {
-    return overlap_components(a, b, max_pairs);
+    Budget budget = budget_of_pair(a, b, interrupting());
+    return overlap_components(a, b, max_pairs, Unresolved::described, &budget);
+  };
+  const auto passes = [](const Surface& a, const Surface& b, std::size_t max_pairs) {
+    Budget budget = budget_of_pair(a, b, interrupting());
+    return passes_through(a, b, max_pairs, &budget);
   };
   m.def("overlap_components", described, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(The connected components of the overlap of two solids, by exact predicates. Surfaces that are not closed are not
 resolved. max_pairs: limit on pairs of triangles that meet; more are not resolved. Swapping a and b only swaps the
 fields of a and b.)");
-  m.def("passes_through", &passes_through, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),
+  m.def("passes_through", passes, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),
         "Whether one of two solids passes through the other at a component of their overlap; None: not resolved.");
 }
 

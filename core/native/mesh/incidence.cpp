@@ -182,22 +182,6 @@ TriangleMeeting meet_collinear(const Facet& line, const Facet& triangle, bool li
   return result;
 }
 
-// (v - u) x (p - u) seen along an axis, exactly.
-Dyadic flat_area(Vec3 u, Vec3 v, Vec3 p, int axis) {
-  const int i = axis == 2 ? 0 : axis + 1, j = axis == 0 ? 2 : axis - 1;
-  const Dyadic ui = u[i], uj = u[j];
-  return (v[i] - ui) * (p[j] - uj) - (v[j] - uj) * (p[i] - ui);
-}
-
-// The height of p over the plane of t, times twice the area of t.
-Dyadic height(const Corners& t, Vec3 p) {
-  const Dyadic ax = t[0].x, ay = t[0].y, az = t[0].z;
-  const Dyadic ux = t[1].x - ax, uy = t[1].y - ay, uz = t[1].z - az;
-  const Dyadic vx = t[2].x - ax, vy = t[2].y - ay, vz = t[2].z - az;
-  return (uy * vz - uz * vy) * (p.x - ax) + (uz * vx - ux * vz) * (p.y - ay) +
-         (ux * vy - uy * vx) * (p.z - az);
-}
-
 bool is_even(double value) { return (std::bit_cast<std::uint64_t>(value) & 1) == 0; }
 
 // numerator / denominator to nearest, ties to even; denominator > 0.
@@ -216,32 +200,14 @@ double nearest_float(const Dyadic& numerator, const Dyadic& denominator) {
   return value;
 }
 
-// The point that divides p q in the ratio of the signed heights of p and q.
-ExactPoint divide(Vec3 p, Vec3 q, const Dyadic& height_p, const Dyadic& height_q) {
-  ExactPoint x;
-  x.w = height_p - height_q;
-  const auto coordinate = [&](double from, double to) { return height_p * to - height_q * from; };
-  x.x = coordinate(p.x, q.x);
-  x.y = coordinate(p.y, q.y);
-  x.z = coordinate(p.z, q.z);
-  if (x.w.sign() < 0) {
-    x.w = -x.w;
-    x.x = -x.x;
-    x.y = -x.y;
-    x.z = -x.z;
-  }
-  x.rounded = {nearest_float(x.x, x.w), nearest_float(x.y, x.w), nearest_float(x.z, x.w)};
-  return x;
-}
-
 ExactPoint cross_edges(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
   const int first = projection_axis(cross(q - p, s - r));
   for (int k = 0; k < 3; ++k) {
     const int axis = (first + k) % 3;
-    const Dyadic height_p = flat_area(r, s, p, axis), height_q = flat_area(r, s, q, axis);
-    if ((height_p - height_q).sign() != 0) return divide(p, q, height_p, height_q);
+    if (orientation_2d(r, s, p, axis) == orientation_2d(r, s, q, axis)) continue;
+    return crossing_point(make_exact_point(p), make_exact_point(q), make_exact_point(r), make_exact_point(s), axis);
   }
-  return make_exact_point(p.x, p.y, p.z, 1.0);  // parallel edges do not cross
+  return make_exact_point(p);  // parallel edges do not cross
 }
 
 }  // namespace
@@ -276,19 +242,10 @@ TriangleMeeting meet_triangles(const Mesh& mesh_a, std::uint32_t triangle_a, con
   return result;
 }
 
-ExactPoint locate(const Incidence& at, const Mesh& a, const Mesh& b) {
+ExactPoint place_of(const Incidence& at, const Mesh& a, const Mesh& b) {
   const auto end = [](const Mesh& mesh, std::uint32_t v) { return mesh.vertices[v]; };
-  const auto exactly = [](Vec3 p) {
-    ExactPoint x;
-    x.x = p.x;
-    x.y = p.y;
-    x.z = p.z;
-    x.w = 1.0;
-    x.rounded = p;
-    return x;
-  };
-  if (at.a.is_vertex()) return exactly(end(a, at.a.first));
-  if (at.b.is_vertex()) return exactly(end(b, at.b.first));
+  if (at.a.is_vertex()) return make_exact_point(end(a, at.a.first));
+  if (at.b.is_vertex()) return make_exact_point(end(b, at.b.first));
   if (at.a.is_edge() && at.b.is_edge()) {
     return cross_edges(end(a, at.a.first), end(a, at.a.second), end(b, at.b.first), end(b, at.b.second));
   }
@@ -296,8 +253,13 @@ ExactPoint locate(const Incidence& at, const Mesh& a, const Mesh& b) {
   const Mesh &of = edge_of_a ? a : b, &other = edge_of_a ? b : a;
   const MeshFeature edge = edge_of_a ? at.a : at.b, face = edge_of_a ? at.b : at.a;
   const Corners t = corners(other, face.second);
-  const Vec3 p = end(of, edge.first), q = end(of, edge.second);
-  return divide(p, q, height(t, p), height(t, q));
+  return plane_meeting_point(t[0], t[1], t[2], end(of, edge.first), end(of, edge.second));
+}
+
+ExactPoint locate(const Incidence& at, const Mesh& a, const Mesh& b) {
+  ExactPoint p = place_of(at, a, b);
+  p.rounded = {nearest_float(p.x, p.w), nearest_float(p.y, p.w), nearest_float(p.z, p.w)};
+  return p;
 }
 
 bool straight(const ExactPoint& p, const ExactPoint& q, const ExactPoint& r) {

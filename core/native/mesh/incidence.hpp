@@ -53,7 +53,9 @@ struct TriangleMeeting {
 TriangleMeeting meet_triangles(const Mesh& a, std::uint32_t triangle_a, const Mesh& b,
                                std::uint32_t triangle_b);
 
-// The point itself. `rounded`: its coordinates rounded to nearest, ties to even; independent of the names of features.
+// The point itself.
+ExactPoint place_of(const Incidence& at, const Mesh& a, const Mesh& b);
+// The same. `rounded`: its coordinates rounded to nearest, ties to even; independent of the names of features.
 ExactPoint locate(const Incidence& at, const Mesh& a, const Mesh& b);
 
 // Whether three different points are on one line, the second between the others.

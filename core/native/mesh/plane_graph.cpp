@@ -26,8 +26,22 @@ PlaneGraph::PlaneGraph(const Corners& plane, Budget* budget)
 
 void PlaneGraph::build() {
   meet_segments();
+  for (Segment& s : segments_) sort_stops(s);
   cut_segments();
   trace();
+}
+
+// Names of one point stay different nodes, as in the other planes that have them.
+void PlaneGraph::build_named() {
+  for (Segment& s : segments_) sort_stops(s);
+  same_.clear();
+  cut_segments();
+  trace();
+}
+
+std::uint32_t PlaneGraph::add_node(const LazyPoint& p) {
+  nodes_.push_back(p);
+  return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
 
 std::uint32_t PlaneGraph::vertex(Vec3 p) {
@@ -56,6 +70,10 @@ void PlaneGraph::add_segment(std::uint32_t from, std::uint32_t to, int surface, 
   const auto [known, is_new] = segment_of_.try_emplace(std::minmax(from, to), static_cast<std::uint32_t>(segments_.size()));
   if (is_new) segments_.push_back({std::min(from, to), std::max(from, to), {}, {}, {}});
   segments_[known->second].changes[surface] += from < to ? change : -change;
+}
+
+void PlaneGraph::add_stop(std::uint32_t from, std::uint32_t to, std::uint32_t node) {
+  segments_[segment_of_.at(std::minmax(from, to))].stops.push_back(node);
 }
 
 // Sweeps along the widest axis, where the fewest segments are near each other.
@@ -138,7 +156,6 @@ int PlaneGraph::axis_along(const Segment& s) const {
 }
 
 void PlaneGraph::cut_segments() {
-  for (Segment& s : segments_) sort_stops(s);
   DisjointSets names(nodes_.size()), parts(nodes_.size());
   for (const auto& [p, q] : same_) names.unite(p, q);
   for (std::uint32_t i = 0; i < segments_.size(); ++i) {
@@ -166,7 +183,7 @@ void PlaneGraph::sort_stops(Segment& s) {
   const int axis = axis_along(s), way = compare(s.to, s.from, axis);
   std::sort(s.stops.begin(), s.stops.end(), [&](std::uint32_t p, std::uint32_t q) {
     const int order = p == q ? 0 : way * compare(p, q, axis);
-    return order != 0 ? order < 0 : p < q;
+    return order != 0 ? order < 0 : way > 0 ? p < q : q < p;
   });
   s.stops.erase(std::unique(s.stops.begin(), s.stops.end()), s.stops.end());
   for (std::size_t k = 1; k < s.stops.size(); ++k) {
@@ -211,6 +228,9 @@ std::vector<std::uint32_t> PlaneGraph::along(std::uint32_t from, std::uint32_t t
     const bool upward = compare(edges_[e].high, edges_[e].low, axis) == way;
     half_edges.push_back(2 * e + (upward ? 0 : 1));
   }
+  std::sort(half_edges.begin(), half_edges.end(), [&](std::uint32_t g, std::uint32_t h) {
+    return g != h && way * compare_along(nodes_[start(g)], nodes_[start(h)], axis) < 0;
+  });
   return half_edges;
 }
 

@@ -47,10 +47,15 @@ class PlaneGraph {
   // A point in the plane, and the one where an edge pierces it.
   std::uint32_t vertex(Vec3 p);
   std::uint32_t piercing(Vec3 p, Vec3 q);
+  // A point that the caller names.
+  std::uint32_t add_node(const LazyPoint& p);
   // Equal segments become one.
   void add_segment(std::uint32_t from, std::uint32_t to, int surface, const PlaneChange& change);
-  // Call it after the last segment.
+  // A node inside a segment. build() finds it.
+  void add_stop(std::uint32_t from, std::uint32_t to, std::uint32_t node);
+  // Call one of them after the last segment. build_named: if segments meet at common nodes and stops only.
   void build();
+  void build_named();
 
   int axis() const { return axis_; }
   int turn() const { return turn_; }
@@ -66,6 +71,7 @@ class PlaneGraph {
   // Half-edge 2 k runs along edge k, 2 k + 1 back. An outline: what is on the left of half-edges that follow each other.
   std::uint32_t half_edge_count() const { return static_cast<std::uint32_t>(next_.size()); }
   std::uint32_t start(std::uint32_t h) const { return h % 2 ? edges_[h / 2].high : edges_[h / 2].low; }
+  std::uint32_t end(std::uint32_t h) const { return start(h ^ 1); }
   std::uint32_t outline(std::uint32_t h) const { return outline_[h]; }
   std::uint32_t outline_count() const { return static_cast<std::uint32_t>(first_.size()); }
   std::uint32_t first(std::uint32_t outline) const { return first_[outline]; }
@@ -78,7 +84,7 @@ class PlaneGraph {
       h = next_[h];
     } while (h != first_[outline]);
   }
-  // The half-edges along a segment.
+  // The half-edges along a segment, in order.
   std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to) const;
 
   // A point on the left of a half-edge, before any other segment; another one for each attempt. It lies on the way to

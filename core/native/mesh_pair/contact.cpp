@@ -24,6 +24,7 @@
 #include "mesh_pair/boundary_contact.hpp"
 #include "mesh_pair/free_regions.hpp"
 #include "mesh_pair/sheet_contact.hpp"
+#include "mesh_pair/traversal.hpp"
 
 namespace satcheck {
 namespace {
@@ -34,23 +35,30 @@ constexpr int kCrossingSamples = 4;
 
 struct ContactTriangle {
   std::uint32_t triangle;
-  std::vector<std::uint32_t> partners;  // of the other mesh
+  std::uint32_t partner;  // the first one, of the other mesh
+  std::size_t partners;
 };
 
 class ContactSide {
  public:
-  ContactSide(const Side& side, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) : side_(side) {
+  ContactSide(const Side& side, const std::vector<ContactPair>& contacts) : side_(side) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    pairs.reserve(contacts.size());
+    for (const ContactPair& c : contacts) pairs.push_back(side.self_is_a ? std::pair(c.a, c.b) : std::pair(c.b, c.a));
     std::sort(pairs.begin(), pairs.end());
     for (const auto& [triangle, partner] : pairs) {
-      if (contacts_.empty() || contacts_.back().triangle != triangle) contacts_.push_back({triangle, {}});
-      contacts_.back().partners.push_back(partner);
+      if (contacts_.empty() || contacts_.back().triangle != triangle) contacts_.push_back({triangle, partner, 0});
+      ++contacts_.back().partners;
     }
   }
 
-  FreeRegions free_regions() const {
-    if (contacts_.empty()) return {side_, {}};
+  FreeRegions free_regions(const SurfaceContacts& contacts) const {
+    if (!contacts.any()) return {side_, {}};
     std::vector<bool> in_contact(side_.self.mesh.triangles.size(), false);
     for (const ContactTriangle& c : contacts_) in_contact[c.triangle] = true;
+    for (const auto& region : contacts.common) {
+      for (const ContactPair& c : region) in_contact[side_.self_is_a ? c.a : c.b] = true;
+    }
     return {side_, std::move(in_contact)};
   }
 
@@ -65,8 +73,8 @@ class ContactSide {
       if (samples.settled()) return;
       if (collinear(t[0], t[1], t[2]) || sampled_.contains(c.triangle)) continue;
       if (cut == Cut::self_meeting && !has_irregular_partners(side_.self, c.triangle, side_.budget)) {
-        const bool known = sample_triangle(t, c.partners.size(), [&](const ExactPoint& p) {
-          return samples.note_at(side_, c.triangle, c.partners[0], p);
+        const bool known = sample_triangle(t, c.partners, [&](const ExactPoint& p) {
+          return samples.note_at(side_, c.triangle, c.partner, p);
         });
         if (!known) samples.fail();
       } else {
@@ -90,7 +98,7 @@ class ContactSide {
   std::uint32_t partner_of(std::uint32_t triangle) const {
     const auto at = std::lower_bound(contacts_.begin(), contacts_.end(), triangle,
                                      [](const ContactTriangle& c, std::uint32_t t) { return c.triangle < t; });
-    return at != contacts_.end() && at->triangle == triangle ? at->partners[0] : kNoTriangle;
+    return at != contacts_.end() && at->triangle == triangle ? at->partner : kNoTriangle;
   }
 
   Side side_;
@@ -122,6 +130,22 @@ bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, con
   return true;
 }
 
+// One sample for each region of common triangles.
+void sample_common(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Samples& samples, Budget* budget) {
+  for (const auto& region : contacts.common) {
+    if (samples.settled()) return;
+    const Corners c = corners(a.mesh, region[0].a);
+    const LazyPoint p = lazy_centroid(c);
+    const auto of_a = beside_inner(a, p, region[0].a, budget);
+    const auto of_b = winding_beside(b.mesh, b.bvh, p, c[0], c[1], c[2], {}, budget);
+    if (!of_a || !of_b) {
+      samples.fail();
+      continue;
+    }
+    samples.note_beside({a, b, true, budget}, *of_a, *of_b, [&] { return Evidence{region[0].a, region[0].b, p.rounded}; });
+  }
+}
+
 // First the side with fewer triangles, which are the larger ones: the triangles of the other side are rarely cut then.
 void sample_patches(ContactSide& a, ContactSide& b, Samples& samples) {
   ContactSide &first = a.count() <= b.count() ? a : b, &second = &first == &a ? b : a;
@@ -143,25 +167,24 @@ PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair cros
   return samples.facts();
 }
 
-PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted,
-                        Budget* budget) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> from_a, from_b;
-  for (const ContactPair& c : contacts) {
-    from_a.emplace_back(c.a, c.b);
-    from_b.emplace_back(c.b, c.a);
-  }
-  ContactSide side_a({a, b, true, budget}, std::move(from_a)), side_b({b, a, false, budget}, std::move(from_b));
+PairFacts judge_contact(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted, Budget* budget) {
+  ContactSide side_a({a, b, true, budget}, contacts.contacts), side_b({b, a, false, budget}, contacts.contacts);
   Samples samples;
-  const FreeRegions free[] = {side_a.free_regions(), side_b.free_regions()};
-  const bool apart = contacts.empty() && std::none_of(std::begin(free), std::end(free), [](const FreeRegions& f) { return f.any_inside(); });
+  const FreeRegions free[] = {side_a.free_regions(contacts), side_b.free_regions(contacts)};
+  const bool apart = !contacts.any() && std::none_of(std::begin(free), std::end(free), [](const FreeRegions& f) { return f.any_inside(); });
   if (apart) return samples.facts();
-  find_plain_contact(a, b, contacts, samples, budget);
+  find_plain_contact(a, b, contacts.contacts, samples, budget);
+  sample_common(a, b, contacts, samples, budget);
   for (const FreeRegions& f : free) f.sample_first(samples);
   for (const FreeRegions& f : free) f.sample_rest(samples);
   if (samples.settled()) return samples.facts();
   sample_patches(side_a, side_b, samples);
-  if (!samples.facts().common) find_sheet_crossing(a, b, contacts, samples, budget);
-  if (wanted == Wanted::relation && samples.contact_matters()) find_any_contact(a, b, contacts, samples, budget);
+  if (!samples.facts().common) find_sheet_crossing(a, b, contacts.contacts, samples, budget);
+  if (wanted == Wanted::relation && samples.contact_matters()) {
+    // Two common triangles may have a corner in common that is boundary of A in one of them and of B in the other.
+    const bool all = contacts.common.empty();
+    find_any_contact(a, b, all ? contacts.contacts : find_contacts(a, b, AtCrossing::go_on, budget).contacts, samples, budget);
+  }
   return samples.facts();
 }
 

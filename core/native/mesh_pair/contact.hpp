@@ -8,6 +8,8 @@
 
 namespace satcheck {
 
+struct SurfaceContacts;
+
 struct ContactPair {
   std::uint32_t a, b;  // triangles with a common point
 };
@@ -18,8 +20,8 @@ PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair cros
 // relation: boundaries that only touch count too. overlap: only common interiors count.
 enum class Wanted { relation, overlap };
 
-// Settled or complete facts; facts about contact only if wanted. `contacts`: every pair with a common point.
-PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted,
+// Settled or complete facts; facts about contact only if wanted. `contacts`: all, whether common ones are apart or not.
+PairFacts judge_contact(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
                         Budget* budget = nullptr);
 
 }  // namespace satcheck

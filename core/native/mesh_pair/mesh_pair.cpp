@@ -1,6 +1,7 @@
 #include "mesh_pair/mesh_pair.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "exact/triangle_pair.hpp"
@@ -69,15 +70,16 @@ MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair c
   return make_relation(Relation::penetrating, Evidence{crossing.a, crossing.b, point});
 }
 
-MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
-                             Wanted wanted, Budget* budget) {
+MeshRelation judged_relation(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
+                             Budget* budget) {
   MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted, budget));
-  if (result.relation == Relation::separated && !contacts.empty()) {
+  if (result.relation == Relation::separated && contacts.any()) {
     // Triangles without area bound no volume, but they are part of the surface.
-    const Vec3 point = contact_point(corners(a.mesh, contacts[0].a), corners(b.mesh, contacts[0].b));
-    result = make_relation(Relation::touching, Evidence{contacts[0].a, contacts[0].b, point});
+    const auto [ta, tb] = contacts.first();
+    result = make_relation(Relation::touching, Evidence{ta, tb, contact_point(corners(a.mesh, ta), corners(b.mesh, tb))});
   }
-  result.judged = contacts.size();
+  result.judged = contacts.contacts.size();
+  for (const auto& region : contacts.common) result.judged += region.size();
   return result;
 }
 
@@ -87,7 +89,7 @@ std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& 
     if (!facts_at_crossing(a, b, *contacts.crossing, budget).settled()) return std::nullopt;
     return crossing_relation(a, b, *contacts.crossing);
   }
-  if (!contacts.contacts.empty()) return std::nullopt;
+  if (contacts.any()) return std::nullopt;
   return judged_relation(a, b, {}, Wanted::relation, budget);
 }
 
@@ -98,8 +100,8 @@ bool overlaps(const MeshRelation& r) {
 MeshRelation relation_of_closed(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
                                 Budget* budget) {
   if (const auto simple = simple_relation_of(a, b, contacts, budget)) return *simple;
-  if (!contacts.crossing) return judged_relation(a, b, contacts.contacts, wanted, budget);
-  const std::vector<ContactPair> all = find_contacts(a, b, AtCrossing::go_on, budget).contacts;
+  if (!contacts.crossing) return judged_relation(a, b, contacts, wanted, budget);
+  const SurfaceContacts all = find_contacts_apart(a, b, AtCrossing::go_on, budget);
   const MeshRelation judged = judged_relation(a, b, all, wanted, budget);
   // Each triangle bounds material, is within it, or is a sheet. If two triangles cross, the bodies overlap, even if
   // samples do not show it.
@@ -108,7 +110,7 @@ MeshRelation relation_of_closed(const Surface& a, const Surface& b, const Surfac
 
 // The relation of two closed surfaces, for any triangles.
 MeshRelation relation_of_points(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
-  return relation_of_closed(a, b, find_contacts(a, b, AtCrossing::stop, budget), wanted, budget);
+  return relation_of_closed(a, b, find_contacts_apart(a, b, AtCrossing::stop, budget), wanted, budget);
 }
 
 // Whether boundaries cross here, and not internal walls of a body.
@@ -133,7 +135,7 @@ MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceC
     if (!overlaps(result)) result.hole = holes.in_the_way;
   } else {
     result = relation_of_points(filled.a(), filled.b(), wanted, budget);
-    const bool by_the_surfaces = result.relation == Relation::touching && !contacts.contacts.empty();
+    const bool by_the_surfaces = result.relation == Relation::touching && contacts.any();
     if (!overlaps(result) && !by_the_surfaces) result.hole = holes.touched;
   }
   result.proven = result.proven && !result.hole;
@@ -154,7 +156,7 @@ MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
   if (const auto in_plane = prism_relation(a, b)) return *in_plane;
-  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop, budget);
+  const SurfaceContacts contacts = find_contacts_apart(a, b, AtCrossing::stop, budget);
   const bool closed = a.solid && b.solid;
   const auto relation_of = closed ? relation_of_closed : relation_of_open;
   return with_counts(relation_of(a, b, contacts, wanted, budget), contacts);
@@ -189,8 +191,7 @@ MeshRelation undecided() {
 // payer: pays for the steps, if any. most: of them.
 template <class Ask>
 MeshRelation within_budget(const Surface& a, const Surface& b, std::uint64_t most, Budget* payer, const Poll& poll, Ask ask) {
-  const std::uint64_t triangles = a.mesh.triangles.size() + b.mesh.triangles.size();
-  Budget budget = Budget::that_stops(std::min(kPairWork + kWorkOfTriangle * triangles, most), poll);
+  Budget budget = budget_of_pair(a, b, poll, most);
   MeshRelation result;
   try {
     result = ask(budget);
@@ -202,6 +203,11 @@ MeshRelation within_budget(const Surface& a, const Surface& b, std::uint64_t mos
 }
 
 }  // namespace
+
+Budget budget_of_pair(const Surface& a, const Surface& b, Poll poll, std::uint64_t most) {
+  const std::uint64_t triangles = a.mesh.triangles.size() + b.mesh.triangles.size();
+  return Budget::that_stops(std::min(kPairWork + kWorkOfTriangle * triangles, most), std::move(poll));
+}
 
 MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll, Budget* payer) {
   const std::uint64_t most = payer != nullptr ? payer->left() : kMostSteps;

@@ -23,6 +23,10 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of two triangles whose boxes meet, of triangles that meet, of two pieces at one side, of the place of a
+// point, and of a side of a patch.
+constexpr std::uint64_t kTestWork = 200, kMeetingWork = 4000, kPiecesWork = 50, kPointWork = 3000, kSideWork = 300;
+
 bool points_less(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), coordinates_less);
 }
@@ -60,11 +64,12 @@ struct Piece {
 
 class Assembly {
  public:
-  Assembly(const Mesh& a, const Mesh& b) : a_(a), b_(b) {}
+  Assembly(const Mesh& a, const Mesh& b, Budget* budget) : a_(a), b_(b), budget_(budget) {}
 
   // pair: as it is reported; triangle_a: of the mesh given here.
   void add(ContactPair pair, const TriangleMeeting& meeting, std::uint32_t triangle_a) {
     if (meeting.kind == MeetingKind::none) return;
+    spend(budget_, kMeetingWork);
     result_.triangle_pairs.push_back(pair);
     for (const Incidence& node : meeting.nodes) number(node);
     if (meeting.kind == MeetingKind::segment) {
@@ -110,7 +115,10 @@ class Assembly {
   }
 
   const ExactPoint& at(std::uint32_t node) {
-    if (!where_[node]) where_[node] = locate(incidences_[node], a_, b_);
+    if (!where_[node]) {
+      spend(budget_, kPointWork);
+      where_[node] = locate(incidences_[node], a_, b_);
+    }
     return *where_[node];
   }
 
@@ -147,6 +155,7 @@ class Assembly {
       covered_[side.first] = covered_[side.second] = true;
       const auto opposite = users.find({side.second, side.first});
       if (side.first > side.second || opposite == users.end()) continue;
+      spend(budget_, kPiecesWork * here.size() * opposite->second.size());
       for (const std::uint32_t i : here) {
         for (const std::uint32_t k : opposite->second) {
           const Piece &p = pieces_[i], &q = pieces_[k];
@@ -163,6 +172,7 @@ class Assembly {
   void add_patch(const std::vector<std::uint32_t>& members) {
     std::map<NodePair, int> balance;  // of each side from the lower to the higher node
     for (const std::uint32_t k : members) {
+      spend(budget_, kSideWork * pieces_[k].sides.size());
       for (const auto& [from, to] : pieces_[k].sides) {
         balance[undirected({from, to})] += from < to ? 1 : -1;
       }
@@ -248,6 +258,7 @@ class Assembly {
   }
 
   const Mesh &a_, &b_;
+  Budget* budget_;
   SurfaceIntersection result_;
   std::map<Incidence, std::uint32_t> number_;
   std::vector<Incidence> incidences_;
@@ -258,29 +269,41 @@ class Assembly {
   std::vector<std::optional<ExactPoint>> where_;
 };
 
-}  // namespace
+SurfaceIntersection unlisted(bool within_budget) {
+  SurfaceIntersection nothing;
+  nothing.complete = false;
+  nothing.within_budget = within_budget;
+  return nothing;
+}
 
-SurfaceIntersection surface_intersection(const Surface& a, const Surface& b, std::size_t max_pairs) {
+SurfaceIntersection list_all(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget) {
   const Sliverless from = without_slivers(a.mesh), to = without_slivers(b.mesh);
   const Mesh &mesh_a = from.mesh, &mesh_b = to.mesh;
   const Bvh rebuilt = to.changed ? build_bvh(mesh_b) : Bvh{};
   const Bvh& bvh = to.changed ? rebuilt : b.bvh;
-  Assembly assembly(mesh_a, mesh_b);
+  Assembly assembly(mesh_a, mesh_b, budget);
   for (std::uint32_t ta = 0; ta < mesh_a.triangles.size(); ++ta) {
     const Aabb box = triangle_box(mesh_a, ta);
     const bool complete = visit_box(bvh, mesh_b, box, [&](std::uint32_t tb) {
       if (meet(box, triangle_box(mesh_b, tb))) {
+        spend(budget, kTestWork);
         assembly.add({from.source[ta], to.source[tb]}, meet_triangles(mesh_a, ta, mesh_b, tb), ta);
       }
       return assembly.pairs() <= max_pairs;
-    });
-    if (!complete) {
-      SurfaceIntersection nothing;
-      nothing.complete = false;
-      return nothing;
-    }
+    }, budget);
+    if (!complete) return unlisted(true);
   }
   return assembly.finish();
+}
+
+}  // namespace
+
+SurfaceIntersection surface_intersection(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget) {
+  try {
+    return list_all(a, b, max_pairs, budget);
+  } catch (const BudgetSpent&) {
+    return unlisted(false);
+  }
 }
 
 }  // namespace satcheck

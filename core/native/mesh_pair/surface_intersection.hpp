@@ -32,10 +32,12 @@ struct SurfaceIntersection {
   std::vector<ContactPatch> patches;
   std::vector<Vec3> points;
   std::vector<ContactPair> triangle_pairs;  // sorted: all that have a common point
-  bool complete = true;  // false: more pairs meet than allowed, and nothing is listed
+  bool complete = true;  // false: more pairs meet than allowed, or `within_budget` is false; nothing is listed
+  bool within_budget = true;
 };
 
-// Swapping a and b only swaps the pairs and reverses opposed patches.
-SurfaceIntersection surface_intersection(const Surface& a, const Surface& b, std::size_t max_pairs);
+// Swapping a and b only swaps the pairs and reverses opposed patches. budget: that stops, see budget_of_pair().
+SurfaceIntersection surface_intersection(const Surface& a, const Surface& b, std::size_t max_pairs,
+                                         Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -1,8 +1,10 @@
 #include "mesh_pair/traversal.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "exact/triangle_pair.hpp"
+#include "mesh_pair/common_triangles.hpp"
 
 namespace satcheck {
 namespace {
@@ -15,15 +17,38 @@ double half_area(const Aabb& box) {
 // Measured steps of a pair of boxes, of a pair of triangles, and of a pair that meets.
 constexpr std::uint64_t kBoxWork = 10, kTriangleWork = 20, kContactWork = 150;
 
+// A triangle of a surface meets about a dozen others at its corners.
+constexpr std::size_t kContactsOfCommon = 16;
+
 class Traversal {
  public:
-  Traversal(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget)
-      : a_(a), b_(b), at_crossing_(at_crossing), budget_(budget) {}
+  Traversal(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget, std::size_t many)
+      : a_(a), b_(b), at_crossing_(at_crossing), budget_(budget), many_(many) {}
 
   SurfaceContacts run() {
     if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return {};
+    walk();
+    if (!ended() && is_many()) {
+      common_.emplace(a_, b_, budget_);
+      if (kContactsOfCommon * common_->count() < contacts_.contacts.size()) common_.reset();
+      many_ = SIZE_MAX;
+      contacts_ = {};
+      walk();
+    }
+    if (common_) {
+      contacts_.common = common_->regions();
+      for (const ContactPair& c : common_->irregular()) contacts_.contacts.push_back(c);
+    }
+    return std::move(contacts_);
+  }
+
+ private:
+  bool ended() const { return contacts_.crossing && at_crossing_ == AtCrossing::stop; }
+  bool is_many() const { return contacts_.contacts.size() > many_; }
+
+  void walk() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> stack{{0, 0}};
-    while (!stack.empty() && !ended()) {
+    while (!stack.empty() && !ended() && !is_many()) {
       const auto [i, j] = stack.back();
       stack.pop_back();
       const BvhNode &m = a_.bvh.nodes[i], &n = b_.bvh.nodes[j];
@@ -40,11 +65,7 @@ class Traversal {
         stack.emplace_back(i, n.first);
       }
     }
-    return std::move(contacts_);
   }
-
- private:
-  bool ended() const { return contacts_.crossing && at_crossing_ == AtCrossing::stop; }
 
   // As box_at(), but without copying the box.
   static bool meets(const Surface& s, std::uint32_t place, const Aabb& box) {
@@ -63,6 +84,7 @@ class Traversal {
         const std::uint32_t tb = b_.bvh.order[l];
         ++contacts_.triangle_tests;
         spend(budget_, kTriangleWork);
+        if (common_ && common_->note(ta, tb)) continue;
         const TriangleContact contact = classify(plane, corners(b_.mesh, tb), budget_);
         if (contact == TriangleContact::disjoint) continue;
         if (contact == TriangleContact::crossing && !contacts_.crossing) contacts_.crossing = ContactPair{ta, tb};
@@ -77,13 +99,20 @@ class Traversal {
   const Surface& b_;
   AtCrossing at_crossing_;
   Budget* budget_;
+  std::size_t many_;
+  std::optional<CommonTriangles> common_;
   SurfaceContacts contacts_;
 };
 
 }  // namespace
 
 SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget) {
-  return Traversal(a, b, at_crossing, budget).run();
+  return Traversal(a, b, at_crossing, budget, SIZE_MAX).run();
+}
+
+SurfaceContacts find_contacts_apart(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget,
+                                    std::size_t many) {
+  return Traversal(a, b, at_crossing, budget, many).run();
 }
 
 }  // namespace satcheck

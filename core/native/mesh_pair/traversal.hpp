@@ -1,5 +1,6 @@
 // Finds all pairs of triangles of two surfaces that meet. Traverses both trees at once and classifies triangles
-// exactly.
+// exactly. Where flush bodies have many triangles in common, each of those would meet a dozen others at its corners: on
+// request, they are listed only once.
 #pragma once
 
 #include <optional>
@@ -13,11 +14,22 @@ namespace satcheck {
 struct SurfaceContacts {
   std::optional<ContactPair> crossing;  // the first one
   std::vector<ContactPair> contacts;    // every pair with a common point, unless the walk ended early
+  // Common triangles, in regions that have the same winding numbers (common_triangles.hpp). `contacts` has no pairs of
+  // two of them.
+  std::vector<std::vector<ContactPair>> common;
   std::size_t box_tests = 0, triangle_tests = 0;
+
+  bool any() const { return !contacts.empty() || !common.empty(); }
+  ContactPair first() const { return contacts.empty() ? common[0][0] : contacts[0]; }
 };
 
 enum class AtCrossing { stop, go_on };
 
 SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget = nullptr);
+
+// With the common triangles apart, if more than `many` pairs meet and many of them are common.
+inline constexpr std::size_t kManyContacts = 4096;
+SurfaceContacts find_contacts_apart(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget,
+                                    std::size_t many = kManyContacts);
 
 }  // namespace satcheck

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "mesh/incidence.hpp"
@@ -17,15 +18,11 @@ class MeetingNodes {
   MeetingNodes(const Mesh& a, const Mesh& b) : meshes_{&a, &b} {}
 
   std::uint32_t add(const Incidence& at);
-  // Sorts the nodes on each edge. Call it after the last add().
-  void sort_edges();
 
   std::size_t count() const { return first_incidence() + incidences_.size(); }
   std::uint32_t of_vertex(int mesh, std::uint32_t vertex) const;
-  // The nodes inside an edge of one mesh (0: a, 1: b), from its lower vertex on.
+  // The nodes inside an edge of one mesh (0: a, 1: b), in no order.
   const std::vector<std::uint32_t>& inside(int mesh, MeshFeature edge) const;
-  // The feature of one mesh that contains a node from add().
-  MeshFeature feature(int mesh, std::uint32_t node) const;
   const ExactPoint& at(std::uint32_t node) const;
 
  private:
@@ -38,7 +35,7 @@ class MeetingNodes {
   const Mesh* meshes_[2];
   std::map<Incidence, std::uint32_t> number_;
   std::vector<Incidence> incidences_;
-  std::unordered_map<std::uint32_t, Incidence> of_node_;
+  std::unordered_set<std::uint32_t> added_;
   std::unordered_map<std::uint32_t, std::uint32_t> same_as_;  // vertices of b that lie on one of a
   std::map<MeshFeature, std::vector<std::uint32_t>> on_edge_[2];
   mutable std::vector<std::unique_ptr<const ExactPoint>> where_;  // by number

@@ -16,6 +16,9 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of two boxes, and of a face.
+constexpr std::uint64_t kBoxWork = 5, kFaceWork = 500;
+
 // Roundings of a corner of a face and of the operations on it.
 constexpr double kVolumeRoundoffs = 16;
 
@@ -41,7 +44,8 @@ class Overlap {
 
   OverlapComponents describe(Unresolved unresolved) {
     find_self_contact(unresolved);
-    if (is_left_out(unresolved)) return {false, {}};
+    if (is_left_out(unresolved)) return {false, true, {}};
+    spend(cells_.budget(), kFaceWork * cells_.faces().size());
     std::map<std::uint32_t, OverlapComponent> found;
     add_faces(found);
     add_volumes(found);
@@ -54,7 +58,7 @@ class Overlap {
       component.a_through_b = here.a_through_b;
       component.b_through_a = here.b_through_a;
     }
-    OverlapComponents result{resolved_, {}};
+    OverlapComponents result{resolved_, true, {}};
     for (auto& [_, component] : found) result.components.push_back(std::move(component));
     return result;
   }
@@ -69,6 +73,7 @@ class Overlap {
       if (labels_.in_both(s)) boxes[joined_.find(s)].include(cells_.box(s / 2));
     }
     for (const auto& [side, box] : boxes) {
+      spend(cells_.budget(), kBoxWork * boxes.size());
       const bool may_be_cave = std::any_of(boxes.begin(), boxes.end(), [&, inner = side, &in = box](const auto& other) {
         return other.first != inner && lies_within(in, other.second);
       });
@@ -94,7 +99,7 @@ class Overlap {
       const bool matters = cells_.in_contact(face.mesh, face.triangle) || in_other(2 * f) || in_other(2 * f + 1);
       if (!matters || cells_.bounds_nothing(face)) continue;
       irregular_[f] = face.within > 0 ? irregular_[f - 1]
-                                      : has_irregular_partners(cells_.surface(face.mesh), face.triangle);
+                                      : has_irregular_partners(cells_.surface(face.mesh), face.triangle, cells_.budget());
       resolved_ = resolved_ && !irregular_[f];
     }
   }
@@ -173,20 +178,25 @@ Surface without_collinear(const Surface& solid) {
   return result;
 }
 
-OverlapComponents components_in_order(const Surface& a, const Surface& b, std::size_t max_pairs, Unresolved unresolved) {
-  if (!a.solid || !b.solid || a.bvh.nodes.empty() || b.bvh.nodes.empty()) return {false, {}};
+OverlapComponents components_in_order(const Surface& a, const Surface& b, std::size_t max_pairs, Unresolved unresolved,
+                                      Budget* budget) {
+  if (!a.solid || !b.solid || a.bvh.nodes.empty() || b.bvh.nodes.empty()) return {false, true, {}};
   const Surface plain_a = without_collinear(a), plain_b = without_collinear(b);
-  SpaceCells cells(plain_a, plain_b, max_pairs);
-  if (!cells.complete()) return {false, {}};
-  return Overlap(cells).describe(unresolved);
+  try {
+    SpaceCells cells(plain_a, plain_b, max_pairs, budget);
+    if (!cells.complete()) return {false, cells.within_limits(), {}};
+    return Overlap(cells).describe(unresolved);
+  } catch (const BudgetSpent&) {
+    return {false, false, {}};
+  }
 }
 
 }  // namespace
 
-OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs, Unresolved unresolved) {
+OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs, Unresolved unresolved,
+                                     Budget* budget) {
   const bool in_order = comes_before(a, b);
-  OverlapComponents result =
-      in_order ? components_in_order(a, b, max_pairs, unresolved) : components_in_order(b, a, max_pairs, unresolved);
+  OverlapComponents result = components_in_order(in_order ? a : b, in_order ? b : a, max_pairs, unresolved, budget);
   std::stable_sort(result.components.begin(), result.components.end(), [](const auto& x, const auto& y) {
     return x.bounds.min != y.bounds.min ? coordinates_less(x.bounds.min, y.bounds.min)
                                         : coordinates_less(x.bounds.max, y.bounds.max);
@@ -197,8 +207,8 @@ OverlapComponents overlap_components(const Surface& a, const Surface& b, std::si
   return result;
 }
 
-std::optional<bool> passes_through(const Surface& a, const Surface& b, std::size_t max_pairs) {
-  const OverlapComponents overlap = overlap_components(a, b, max_pairs);
+std::optional<bool> passes_through(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget) {
+  const OverlapComponents overlap = overlap_components(a, b, max_pairs, Unresolved::described, budget);
   const auto any = [&](std::optional<bool> answer) {
     return std::any_of(overlap.components.begin(), overlap.components.end(), [&](const OverlapComponent& c) {
       return c.a_through_b == answer || c.b_through_a == answer;

@@ -31,8 +31,9 @@ struct OverlapComponent {
 
 struct OverlapComponents {
   // False: the number of components may differ, because a surface meets itself within the other body or is not closed,
-  // or because too many triangles meet.
+  // or because `within_limits` is false.
   bool resolved = true;
+  bool within_limits = true;  // false: too many triangles meet, or it takes more steps than it may; nothing is listed
   std::vector<OverlapComponent> components;  // by the least corner of their bounds
 };
 
@@ -40,11 +41,11 @@ struct OverlapComponents {
 enum class Unresolved : std::uint8_t { described, left_out };
 
 // Swapping a and b only swaps the fields of a and b. max_pairs: limit on pairs of triangles that meet; more are not
-// resolved.
+// resolved. budget: that stops, see budget_of_pair().
 OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs,
-                                     Unresolved unresolved = Unresolved::described);
+                                     Unresolved unresolved = Unresolved::described, Budget* budget = nullptr);
 
 // Whether one of two solids passes through the other, whichever body coincident faces belong to. Empty: not resolved.
-std::optional<bool> passes_through(const Surface& a, const Surface& b, std::size_t max_pairs);
+std::optional<bool> passes_through(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget = nullptr);
 
 }  // namespace satcheck

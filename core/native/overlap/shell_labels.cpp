@@ -22,7 +22,7 @@ bool add_hits(const SpaceCells& cells, int mesh, const ExactPoint& p, Vec3 far, 
   const ExactPoint end = make_exact_point(far);
   return visit_box(surface.bvh, surface.mesh, path, [&](std::uint32_t t) {
     const Corners c = corners(surface.mesh, t);
-    const auto crossing = segment_crossing(p, far, c[0], c[1], c[2]);
+    const auto crossing = segment_crossing(p, far, c[0], c[1], c[2], cells.budget());
     if (!crossing || *crossing == 0) return crossing.has_value();
     Ratio at = zero_between(orientation_value(c[0], c[1], c[2], p), orientation_value(c[0], c[1], c[2], far) * p.w);
     const auto face = cells.face_at(mesh, t, between(p, end, at.denominator - at.numerator, at.numerator));
@@ -30,7 +30,7 @@ bool add_hits(const SpaceCells& cells, int mesh, const ExactPoint& p, Vec3 far, 
     const bool to_front = *crossing > 0;
     hits.push_back({std::move(at), 2 * *face + (to_front ? 1 : 0), 2 * *face + (to_front ? 0 : 1)});
     return true;
-  });
+  }, cells.budget());
 }
 
 }  // namespace
@@ -60,8 +60,8 @@ bool ShellLabels::note(std::uint32_t face, const Point& p) {
   const CellFace& f = cells_.faces()[face];
   const Surface &own = cells_.surface(f.mesh), &other = cells_.surface(1 - f.mesh);
   const Corners c = corners(own.mesh, f.triangle);
-  const auto mine = winding_beside(own.mesh, own.bvh, p, c[0], c[1], c[2], f.triangle);
-  const auto theirs = winding_beside(other.mesh, other.bvh, p, c[0], c[1], c[2]);
+  const auto mine = winding_beside(own.mesh, own.bvh, p, c[0], c[1], c[2], f.triangle, cells_.budget());
+  const auto theirs = winding_beside(other.mesh, other.bvh, p, c[0], c[1], c[2], {}, cells_.budget());
   if (!mine || !theirs) return false;
   for (const int behind : {0, 1}) {
     const int m = behind ? mine->back : mine->front, t = behind ? theirs->back : theirs->front;

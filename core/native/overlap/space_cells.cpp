@@ -8,6 +8,9 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of two triangles that meet, and of a half-plane at a stretch.
+constexpr std::uint64_t kMeetingWork = 4000, kHalfPlaneWork = 500;
+
 template <class T>
 void sort_and_drop_copies(std::vector<T>& values) {
   std::sort(values.begin(), values.end());
@@ -16,8 +19,8 @@ void sort_and_drop_copies(std::vector<T>& values) {
 
 }  // namespace
 
-SpaceCells::SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs)
-    : a_(a), b_(b), nodes_(a.mesh, b.mesh) {
+SpaceCells::SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget)
+    : a_(a), b_(b), budget_(budget), nodes_(a.mesh, b.mesh) {
   meet(max_pairs);
   for (int mesh = 0; mesh < 2 && complete_; ++mesh) cut(mesh);
   shells_ = DisjointSets(2 * faces_.size());
@@ -27,9 +30,10 @@ SpaceCells::SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs
 
 void SpaceCells::meet(std::size_t max_pairs) {
   for (const int mesh : {0, 1}) cut_[mesh].assign(surface(mesh).mesh.triangles.size(), kNotCut);
-  const std::vector<ContactPair> pairs = find_contacts(a_, b_, AtCrossing::go_on).contacts;
-  complete_ = pairs.size() <= max_pairs;
+  const std::vector<ContactPair> pairs = find_contacts(a_, b_, AtCrossing::go_on, budget_).contacts;
+  complete_ = within_limits_ = pairs.size() <= max_pairs;
   if (!complete_) return;
+  spend(budget_, kMeetingWork * pairs.size());
   for (const ContactPair& pair : pairs) {
     if (repeats_a_corner(a_.mesh.triangles[pair.a]) || repeats_a_corner(b_.mesh.triangles[pair.b])) continue;
     const TriangleMeeting meeting = meet_triangles(a_.mesh, pair.a, b_.mesh, pair.b);
@@ -45,7 +49,6 @@ void SpaceCells::meet(std::size_t max_pairs) {
     }
     cut_[0][pair.a] = cut_[1][pair.b] = 0;
   }
-  nodes_.sort_edges();
   for (auto& segments : segments_) sort_and_drop_copies(segments);
 }
 
@@ -66,52 +69,33 @@ std::uint32_t SpaceCells::cut_triangle(int mesh, std::uint32_t triangle) {
   const Corners c = corners(surface(mesh).mesh, triangle);
   complete_ = complete_ && !collinear(c[0], c[1], c[2]);
   if (!complete_) return 0;
-  const Border border = border_of(mesh, triangle);
   cut_[mesh][triangle] = static_cast<std::uint32_t>(cuts_.size());
-  const TriangleFaces& faces = cuts_.emplace_back(nodes_, c, border.nodes, inner_stretches(mesh, triangle));
+  const TriangleFaces& faces = cuts_.emplace_back(nodes_, c, sides_of(mesh, triangle), segments_in(mesh, triangle), budget_);
   complete_ = complete_ && faces.complete();
-  for (std::uint32_t h = 0; h < 2 * faces.stretches().size(); ++h) {
+  for (std::size_t h = 0; h < faces.half_edge_count(); ++h) {
     if (faces.left(h) == TriangleFaces::kOutside) continue;
-    const auto [from, to] = faces.stretches()[h / 2];
-    const bool left = (from < to) == (h % 2 == 0);
-    const int edge = h / 2 < border.edges.size() ? border.edges[h / 2] : -1;
+    const std::uint32_t from = faces.start(h), to = faces.start(h ^ 1);
     const std::uint32_t face = first_face_[mesh][triangle] + faces.left(h);
-    half_planes_.push_back({std::min(from, to), std::max(from, to), mesh, triangle, face, left, edge});
+    half_planes_.push_back({std::min(from, to), std::max(from, to), mesh, triangle, face, from < to, faces.side_of(h)});
   }
   return faces.count();
 }
 
-SpaceCells::Border SpaceCells::border_of(int mesh, std::uint32_t triangle) const {
+std::array<TriangleFaces::TriangleSide, 3> SpaceCells::sides_of(int mesh, std::uint32_t triangle) const {
   const Triangle& v = surface(mesh).mesh.triangles[triangle];
-  Border border;
-  for (int i = 0; i < 3; ++i) {
-    const std::uint32_t from = v[i], to = v[(i + 1) % 3];
-    std::vector<std::uint32_t> inside = nodes_.inside(mesh, MeshFeature::edge(from, to));
-    if (from > to) std::reverse(inside.begin(), inside.end());
-    border.nodes.push_back(nodes_.of_vertex(mesh, from));
-    border.nodes.insert(border.nodes.end(), inside.begin(), inside.end());
-    border.edges.resize(border.nodes.size(), i);
-  }
-  return border;
+  const auto side = [&](std::uint32_t from, std::uint32_t to) {
+    return TriangleFaces::TriangleSide{nodes_.of_vertex(mesh, from), nodes_.of_vertex(mesh, to),
+                                       nodes_.inside(mesh, MeshFeature::edge(from, to))};
+  };
+  return {side(v[0], v[1]), side(v[1], v[2]), side(v[2], v[0])};
 }
 
-// The stretches that do not lie along an edge of the triangle.
-std::vector<NodePair> SpaceCells::inner_stretches(int mesh, std::uint32_t triangle) const {
-  const Triangle& v = surface(mesh).mesh.triangles[triangle];
-  const auto on_edge = [&](std::uint32_t node, int i) {
-    const MeshFeature f = nodes_.feature(mesh, node);
-    const std::uint32_t from = v[i], to = v[(i + 1) % 3];
-    return f == MeshFeature::edge(from, to) || (f.is_vertex() && (f.first == from || f.first == to));
-  };
-  std::vector<NodePair> inner;
-  auto segment = std::lower_bound(segments_[mesh].begin(), segments_[mesh].end(), std::pair(triangle, NodePair{}));
-  for (; segment != segments_[mesh].end() && segment->first == triangle; ++segment) {
-    const auto [low, high] = segment->second;
-    bool on_border = false;
-    for (int i = 0; i < 3; ++i) on_border = on_border || (on_edge(low, i) && on_edge(high, i));
-    if (!on_border) inner.emplace_back(low, high);
-  }
-  return inner;
+std::vector<NodePair> SpaceCells::segments_in(int mesh, std::uint32_t triangle) const {
+  const auto &segments = segments_[mesh];
+  std::vector<NodePair> within;
+  auto segment = std::lower_bound(segments.begin(), segments.end(), std::pair(triangle, NodePair{}));
+  for (; segment != segments.end() && segment->first == triangle; ++segment) within.push_back(segment->second);
+  return within;
 }
 
 // Edges of triangles that do not meet the other surface.
@@ -146,6 +130,7 @@ void SpaceCells::join_at_stretches() {
     for (const NodePair at = ends(half_planes_[i]); i < half_planes_.size() && ends(half_planes_[i]) == at; ++i) {
       here.push_back(half_planes_[i]);
     }
+    spend(budget_, kHalfPlaneWork * here.size());
     const auto groups = here.size() == 2 ? std::optional(std::vector<std::vector<HalfPlane>>{{here[0]}, {here[1]}})
                                          : order_around(a_.mesh, b_.mesh, nodes_, here);
     complete_ = groups && groups->size() > 1;
@@ -201,11 +186,8 @@ void SpaceCells::visit_outline(std::uint32_t face, Visit visit) const {
     return;
   }
   const TriangleFaces& cut = cuts_[cut_[f.mesh][f.triangle]];
-  for (std::size_t h = 0; h < 2 * cut.stretches().size(); ++h) {
-    if (cut.left(h) != f.within) continue;
-    const auto [first, second] = cut.stretches()[h / 2];
-    const Vec3 p = nodes_.at(first).rounded, q = nodes_.at(second).rounded;
-    h % 2 == 0 ? visit(p, q) : visit(q, p);
+  for (std::size_t h = 0; h < cut.half_edge_count(); ++h) {
+    if (cut.left(h) == f.within) visit(nodes_.at(cut.start(h)).rounded, nodes_.at(cut.start(h ^ 1)).rounded);
   }
 }
 

@@ -5,7 +5,8 @@
 // closed surfaces that bound the cells. Each of these is a shell. A cell with cavities has several shells.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -32,10 +33,12 @@ struct Wedge {
 class SpaceCells {
  public:
   // For surfaces without collinear triangles, see without_slivers(). complete() is false if more than `max_pairs` pairs
-  // of triangles meet, or if a surface meets itself at the other one.
-  SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs);
+  // of triangles meet, or if a surface meets itself at the other one. Throws BudgetSpent.
+  SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget);
 
   bool complete() const { return complete_; }
+  bool within_limits() const { return within_limits_; }
+  Budget* budget() const { return budget_; }
   const Surface& surface(int mesh) const { return mesh == 0 ? a_ : b_; }
   const MeetingNodes& nodes() const { return nodes_; }
   const std::vector<CellFace>& faces() const { return faces_; }
@@ -58,36 +61,31 @@ class SpaceCells {
  private:
   static constexpr std::uint32_t kNotCut = 0xFFFFFFFF;
 
-  // The nodes around a triangle, and for each node the edge that contains the stretch from it.
-  struct Border {
-    std::vector<std::uint32_t> nodes;
-    std::vector<int> edges;
-  };
-
   // Calls visit(from, to) for the stretches around a face, which is on their left; rounded ends.
   template <class Visit>
   void visit_outline(std::uint32_t face, Visit visit) const;
   void meet(std::size_t max_pairs);
   void cut(int mesh);
   std::uint32_t cut_triangle(int mesh, std::uint32_t triangle);
-  Border border_of(int mesh, std::uint32_t triangle) const;
-  std::vector<NodePair> inner_stretches(int mesh, std::uint32_t triangle) const;
+  std::array<TriangleFaces::TriangleSide, 3> sides_of(int mesh, std::uint32_t triangle) const;
+  std::vector<NodePair> segments_in(int mesh, std::uint32_t triangle) const;
   void join_at_edges(int mesh);
   void join_at_stretches();
   void join(std::uint32_t side, std::uint32_t other, std::uint32_t low, std::uint32_t high);
   void unite_shared(const std::vector<HalfPlane>& half_planes);
 
   const Surface &a_, &b_;
+  Budget* budget_;
   MeetingNodes nodes_;
   std::vector<std::pair<std::uint32_t, NodePair>> segments_[2];  // by triangle
   std::vector<std::uint32_t> cut_[2];                            // of each triangle: which of the cuts_, or kNotCut
   std::vector<std::uint32_t> first_face_[2];                     // of each triangle
-  std::vector<TriangleFaces> cuts_;
+  std::deque<TriangleFaces> cuts_;
   std::vector<CellFace> faces_;
   std::vector<HalfPlane> half_planes_;
   std::vector<Wedge> wedges_;
   DisjointSets shells_{0};
-  bool complete_ = true;
+  bool complete_ = true, within_limits_ = true;
 };
 
 }  // namespace satcheck

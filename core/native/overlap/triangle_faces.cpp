@@ -1,10 +1,10 @@
 #include "overlap/triangle_faces.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <map>
+#include <set>
 
-#include "base/patches.hpp"
-#include "exact/point_in_triangle.hpp"
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 namespace {
@@ -13,111 +13,94 @@ namespace {
 // one.
 constexpr int kWays = 256;
 
+// Measured steps of a way and a stretch.
+constexpr std::uint64_t kStretchWork = 200;
+
+LazyPoint lazy(const ExactPoint& p) {
+  return {p.rounded, p.error, [&p] { return p; }};
+}
+
 }  // namespace
 
-TriangleFaces::TriangleFaces(const MeetingNodes& nodes, const Corners& triangle,
-                             const std::vector<std::uint32_t>& border, const std::vector<NodePair>& inner)
-    : nodes_(&nodes), corners_(triangle), axis_(projection_axis(rounded_normal(triangle[0], triangle[1], triangle[2]))),
-      turn_(orientation_2d(triangle[0], triangle[1], triangle[2], axis_)), border_count_(border.size()) {
-  for (std::size_t k = 0; k < border.size(); ++k) stretches_.emplace_back(border[k], border[(k + 1) % border.size()]);
-  stretches_.insert(stretches_.end(), inner.begin(), inner.end());
-  trace();
+TriangleFaces::TriangleFaces(const MeetingNodes& nodes, const Corners& triangle, const std::array<TriangleSide, 3>& sides,
+                             const std::vector<NodePair>& segments, Budget* budget)
+    : corners_(triangle), budget_(budget), graph_(triangle, budget) {
+  make_graph(nodes, sides, segments);
+  DisjointSets outlines(graph_.outline_count());
+  complete_ = join_islands(outlines);
+  const std::uint32_t outside = outlines.find(graph_.outline(in_graph(1)));
+  std::vector<std::uint32_t> number(graph_.outline_count(), kOutside);
+  for (std::size_t h = 0; h < half_edge_count(); ++h) {
+    const std::uint32_t set = outlines.find(graph_.outline(in_graph(h)));
+    if (set != outside && number[set] == kOutside) number[set] = count_++;
+  }
+  face_.resize(graph_.outline_count());
+  for (std::uint32_t k = 0; k < face_.size(); ++k) face_[k] = number[outlines.find(k)];
 }
 
-void TriangleFaces::trace() {
-  const auto half_edges = static_cast<std::uint32_t>(2 * stretches_.size());
-  std::vector<std::uint32_t> leaving(half_edges), next(half_edges);
-  std::iota(leaving.begin(), leaving.end(), 0u);
-  std::sort(leaving.begin(), leaving.end(), [&](std::uint32_t g, std::uint32_t h) {
-    return start(g) != start(h) ? start(g) < start(h) : g < h;
-  });
-  for (std::size_t i = 0; i < leaving.size();) {
-    std::vector<std::uint32_t> around;
-    for (const std::uint32_t from = start(leaving[i]); i < leaving.size() && start(leaving[i]) == from; ++i) {
-      around.push_back(leaving[i]);
+void TriangleFaces::make_graph(const MeetingNodes& nodes, const std::array<TriangleSide, 3>& sides,
+                               const std::vector<NodePair>& segments) {
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  std::vector<int> on_sides;  // of each node of the graph: bit i for side i
+  const auto node = [&](std::uint32_t name, int bits) {
+    const auto [known, is_new] = numbers.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
+    if (is_new) {
+      names_.push_back(name);
+      on_sides.push_back(0);
+      graph_.add_node(lazy(nodes.at(name)));
     }
-    if (around.size() > 2) sort_around(around);
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      next[around[k] ^ 1] = around[(k + around.size() - 1) % around.size()];
-    }
-  }
-  std::vector<std::uint32_t> loop_of(half_edges, kOutside);
-  for (std::uint32_t h = 0; h < half_edges; ++h) {
-    for (std::uint32_t g = h; loop_of[g] == kOutside; g = next[g]) loop_of[g] = h;
-  }
-  complete_ = join_islands(loop_of);
-  const std::uint32_t outside = loop_of[1];  // on the left of a stretch of the border, run backward
-  std::vector<std::uint32_t> number(half_edges, kOutside);
-  face_.resize(half_edges);
-  for (std::uint32_t h = 0; h < half_edges; ++h) {
-    std::uint32_t& face = number[loop_of[h]];
-    if (loop_of[h] != outside && face == kOutside) face = count_++;
-    face_[h] = face;
-  }
-}
-
-// Counter-clockwise around the node that all of them leave.
-void TriangleFaces::sort_around(std::vector<std::uint32_t>& half_edges) const {
-  const ExactPoint& from = node(start(half_edges[0]));
-  const std::uint32_t first = half_edges[0];
-  const auto quarter = [&](std::uint32_t h) {
-    const int turn = h == first ? 0 : side(from, node(end(first)), node(end(h)));
-    return h == first ? 0 : turn > 0 ? 1 : turn == 0 ? 2 : 3;
+    on_sides[known->second] |= bits;
+    return known->second;
   };
-  std::sort(half_edges.begin(), half_edges.end(), [&](std::uint32_t g, std::uint32_t h) {
-    const int quarter_g = quarter(g), quarter_h = quarter(h);
-    return quarter_g != quarter_h ? quarter_g < quarter_h : g != h && side(from, node(end(g)), node(end(h))) > 0;
-  });
-}
-
-// The stretches of each part of the graph that is not connected to the border.
-std::vector<std::vector<std::uint32_t>> TriangleFaces::islands() const {
-  std::vector<std::uint32_t> numbers;
-  for (const auto& [i, k] : stretches_) numbers.insert(numbers.end(), {i, k});
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  const auto place = [&](std::uint32_t number) {
-    return static_cast<std::uint32_t>(std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin());
-  };
-  DisjointSets sets(numbers.size());
-  for (const auto& [i, k] : stretches_) sets.unite(place(i), place(k));
-  std::map<std::uint32_t, std::vector<std::uint32_t>> members;
-  for (std::uint32_t k = 0; k < stretches_.size(); ++k) members[sets.find(place(stretches_[k].first))].push_back(k);
-  members.erase(sets.find(place(stretches_[0].first)));
-  std::vector<std::vector<std::uint32_t>> result;
-  for (auto& [_, stretches] : members) result.push_back(std::move(stretches));
-  return result;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t from = node(sides[i].from, 1 << i), to = node(sides[i].to, 1 << i);
+    graph_.add_segment(from, to, 0, {});
+    for (const std::uint32_t name : sides[i].inside) graph_.add_stop(from, to, node(name, 1 << i));
+  }
+  std::vector<NodePair> inner;
+  for (const auto& [low, high] : segments) {
+    const std::uint32_t from = node(low, 0), to = node(high, 0);
+    if (from == to || (on_sides[from] & on_sides[to]) != 0) continue;
+    graph_.add_segment(from, to, 0, {});
+    inner.emplace_back(from, to);
+  }
+  graph_.build_named();
+  for (int i = 0; i < 3; ++i) {
+    const std::vector<std::uint32_t> along = graph_.along(node(sides[i].from, 0), node(sides[i].to, 0));
+    forward_.insert(forward_.end(), along.begin(), along.end());
+    side_.resize(forward_.size(), i);
+  }
+  for (const auto& [from, to] : inner) forward_.push_back(graph_.along(from, to).front());
 }
 
 // After the last crossing of a segment with some islands, it is in their surrounding face, and then meets another part
-// of its outline. One segment from each island therefore joins all outlines of all faces.
-bool TriangleFaces::join_islands(std::vector<std::uint32_t>& loop_of) const {
-  const auto parts = islands();
-  if (parts.empty()) return true;
-  DisjointSets loops(loop_of.size());
-  for (const auto& island : parts) {
-    const ExactPoint from = middle(island[0]);
+// of its outline. One segment from each part of the graph that is not connected to the border therefore joins all
+// outlines of all faces.
+bool TriangleFaces::join_islands(DisjointSets& outlines) const {
+  std::set<std::uint32_t> done{graph_.part(graph_.start(forward_[0]))};
+  for (const std::uint32_t h : forward_) {
+    if (!done.insert(graph_.part(graph_.start(h))).second) continue;
+    const ExactPoint from = middle(h);
     std::optional<std::vector<Crossing>> met;
-    std::uint32_t behind = 0;
+    std::uint32_t behind = h;
     for (int attempt = 0; attempt < kWays && !met; ++attempt) {
       const ExactPoint to = beyond(from, attempt);
-      const int turn = side(node(stretches_[island[0]].first), node(stretches_[island[0]].second), to);
+      const int turn = graph_.side(graph_.start(h), graph_.end(h), lazy(to));
       if (turn == 0) continue;
-      behind = 2 * island[0] + (turn > 0 ? 0 : 1);
+      behind = turn > 0 ? h : h ^ 1;
       met = crossings(from, to);
     }
     if (!met) return false;
     for (const Crossing& crossing : *met) {
-      loops.unite(loop_of[behind], loop_of[crossing.near_side]);
+      outlines.unite(graph_.outline(behind), graph_.outline(crossing.near_side));
       behind = crossing.near_side ^ 1;
     }
   }
-  for (std::uint32_t& loop : loop_of) loop = loops.find(loop);
   return true;
 }
 
-ExactPoint TriangleFaces::middle(std::uint32_t stretch) const {
-  return between(node(stretches_[stretch].first), node(stretches_[stretch].second), 1.0, 1.0);
+ExactPoint TriangleFaces::middle(std::uint32_t half_edge) const {
+  return between(graph_.node(graph_.start(half_edge)).exact(), graph_.node(graph_.end(half_edge)).exact(), 1.0, 1.0);
 }
 
 // A point outside of the triangle, opposite `from` across a point of the border.
@@ -133,29 +116,35 @@ ExactPoint TriangleFaces::beyond(const ExactPoint& from, int attempt) const {
 // inside a stretch, which the segment only leaves.
 std::optional<std::vector<TriangleFaces::Crossing>> TriangleFaces::crossings(const ExactPoint& from,
                                                                              const ExactPoint& to) const {
+  spend(budget_, kStretchWork * forward_.size());
+  const LazyPoint start = lazy(from), end = lazy(to);
+  const auto side = [&](const LazyPoint& p, const LazyPoint& q, const LazyPoint& of) {
+    return graph_.turn() * orientation_2d_at(p, q, of, graph_.axis());
+  };
   std::vector<Crossing> met;
-  for (std::uint32_t k = 0; k < stretches_.size(); ++k) {
-    const ExactPoint &p = node(stretches_[k].first), &q = node(stretches_[k].second);
-    const int p_side = side(from, to, p), q_side = side(from, to, q);
+  for (const std::uint32_t h : forward_) {
+    const LazyPoint &p = graph_.node(graph_.start(h)), &q = graph_.node(graph_.end(h));
+    const int p_side = side(start, end, p), q_side = side(start, end, q);
     if (p_side * q_side > 0) continue;
-    const int near = side(p, q, from), far = side(p, q, to);
+    const int near = side(p, q, start), far = side(p, q, end);
     if (near == 0 && far != 0) continue;
     if (p_side * q_side == 0 || far == 0) return std::nullopt;
     if (near == far) continue;
-    met.push_back({zero_between(area_value(p, q, from, axis_) * to.w, area_value(p, q, to, axis_) * from.w),
-                   2 * k + (near > 0 ? 0 : 1)});
+    const auto area = [&](const ExactPoint& of) { return area_value(p.exact(), q.exact(), of, graph_.axis()); };
+    met.push_back({zero_between(area(from) * to.w, area(to) * from.w), near > 0 ? h : h ^ 1});
   }
   std::sort(met.begin(), met.end(), [](const Crossing& x, const Crossing& y) { return less(x.at, y.at); });
   return met;
 }
 
 std::optional<ExactPoint> TriangleFaces::sample(std::uint32_t face) const {
-  for (std::uint32_t h = 0; h < face_.size(); ++h) {
-    if (face_[h] != face) continue;
-    const ExactPoint from = middle(h / 2);
+  for (std::size_t h = 0; h < half_edge_count(); ++h) {
+    if (left(h) != face) continue;
+    const std::uint32_t g = in_graph(h);
+    const ExactPoint from = middle(g);
     for (int attempt = 0; attempt < kWays; ++attempt) {
       const ExactPoint to = beyond(from, attempt);
-      if (side(node(start(h)), node(end(h)), to) <= 0) continue;
+      if (graph_.side(graph_.start(g), graph_.end(g), lazy(to)) <= 0) continue;
       const auto met = crossings(from, to);
       if (!met || met->empty()) continue;
       const auto& [numerator, denominator] = met->front().at;
@@ -169,7 +158,7 @@ std::optional<std::uint32_t> TriangleFaces::face_at(const ExactPoint& p) const {
   if (count_ == 1) return 0;
   for (int attempt = 0; attempt < kWays; ++attempt) {
     const auto met = crossings(p, beyond(p, attempt));
-    if (met && !met->empty()) return face_[met->front().near_side];
+    if (met && !met->empty()) return face_[graph_.outline(met->front().near_side)];
   }
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "mesh_pair/mesh_pair.hpp"
 #include "thickness/component_balls.hpp"
 #include "thickness/component_box.hpp"
 
@@ -24,7 +25,9 @@ double hull_bound(const ThicknessInterval& ball, const ThicknessGoal& goal) {
 }  // namespace
 
 ComponentSearch::ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal)
-    : goal_(goal), budget_(goal.work, goal.poll), overlap_(overlap_components(a, b, kMostPairs, Unresolved::left_out)) {
+    : goal_(goal), budget_(goal.work, goal.poll) {
+  Budget of_pair = budget_of_pair(a, b, [this](const SearchState& state) { budget_.tell_again(state.work); });
+  overlap_ = overlap_components(a, b, kMostPairs, Unresolved::left_out, &of_pair);
   if (!resolved()) return;
   balls_ = component_balls(a, b, overlap_);
   for (const ThicknessInterval& ball : balls_) upper_.push_back(hull_bound(ball, goal));

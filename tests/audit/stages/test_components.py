@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pytest
 from msgspec.structs import replace
 
+from satcheck import core
 from satcheck.audit import Components, Settings, check
 from satcheck.core.errors import SatcheckError
 from tests.audit.shapes import box, bracket, moved, open_box, scene_of, unit_box
@@ -43,6 +46,16 @@ def test_the_corner_of_two_boxes(tmp_path):
     assert (common.curves, common.curve_length) == (1, 2 * (0.5 + 0.75 + 0.875))
     assert (common.passes, common.volume) == ("none", None)
     assert stages(finding)[-1] == "components"
+
+
+def test_what_takes_too_long_is_not_resolved(tmp_path, monkeypatch):
+    spent = SimpleNamespace(resolved=False, within_limits=False, components=[])
+    monkeypatch.setattr(core, "overlap_components", lambda *_: spent)
+    monkeypatch.setattr(core, "component_balls", lambda *_: [])
+    finding = components_of(tmp_path, a=unit_box(), b=unit_box(0.5, 0.25, 0.125))
+    assert (finding.components.items, finding.components.resolved) == ((), False)
+    assert finding.plan[-1].result == "not resolved"
+    assert "more steps" in finding.plan[-1].detail
 
 
 def test_volume_where_it_is_asked_for(tmp_path):

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pytest
 
+from satcheck import core
 from satcheck.audit import Contacts, Settings, check
 from satcheck.core.errors import SatcheckError
 from satcheck.report.contacts import ContactTotals
@@ -102,6 +105,16 @@ def test_too_many_are_a_warning_not_a_list(tmp_path, monkeypatch):
     assert (finding.relation, finding.contacts) == ("penetrating", None)
     assert [stage.result for stage in finding.plan if stage.stage == "contacts"] == ["too many"]
     assert [issue.code for issue in report.issues] == ["too-many-contacts"]
+
+
+def test_too_many_steps_are_a_warning_too(tmp_path, monkeypatch):
+    spent = SimpleNamespace(complete=False, within_budget=False)
+    monkeypatch.setattr(core, "surface_intersection", lambda *_: spent)
+    report = check(scene_of(tmp_path, a=unit_box(), b=unit_box(0.5, 0.25, 0.125)), ASKED)
+    assert only(report).contacts is None
+    (issue,) = report.issues
+    assert issue.code == "too-many-contacts"
+    assert "more steps than a pair may" in issue.message
 
 
 def test_contacts_need_triangles():

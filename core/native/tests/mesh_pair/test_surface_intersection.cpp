@@ -47,7 +47,10 @@ void spheres_cross_in_one_loop() {
   const SurfaceIntersection found = surface_intersection(a, b, kPlenty);
   CHECK(found.curves.size() == 1 && found.curves[0].closed && found.points.empty());
   for (Vec3 p : found.curves[0].points) CHECK(norm(p) <= 1 + 1e-15 && norm(p) > 0.99);
-  CHECK(!surface_intersection(a, b, 3).complete);
+  CHECK(!surface_intersection(a, b, 3).complete && surface_intersection(a, b, 3).within_budget);
+  Budget few = Budget::that_stops(100'000, {});
+  const SurfaceIntersection spent = surface_intersection(a, b, kPlenty, &few);
+  CHECK(!spent.complete && !spent.within_budget && spent.curves.empty() && spent.triangle_pairs.empty());
 }
 
 // At the ends of the numeric range nothing overflows, underflows or turns into NaN.

@@ -62,7 +62,14 @@ void spheres_cross_in_one_curve() {
   const Surface a = make_surface(testing::uv_sphere(24), true), b = make_surface(other, true);
   const OverlapComponents overlap = overlap_components(a, b, kPlenty);
   CHECK(overlap.resolved && overlap.components.size() == 1 && overlap.components[0].curves == 1);
-  CHECK(!overlap_components(a, b, 3).resolved);
+  CHECK(overlap.within_limits);
+  const OverlapComponents too_many = overlap_components(a, b, 3);
+  CHECK(!too_many.resolved && !too_many.within_limits);
+  for (const std::uint64_t steps : {100'000u, 2'000'000u}) {  // among the contacts, and among the faces
+    Budget few = Budget::that_stops(steps, {});
+    const OverlapComponents spent = overlap_components(a, b, kPlenty, Unresolved::described, &few);
+    CHECK(!spent.resolved && !spent.within_limits && spent.components.empty());
+  }
 }
 
 }  // namespace
