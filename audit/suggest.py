@@ -178,26 +178,17 @@ def _looser(
         for names, own in named.items()
         for asset in reports
         if names <= ids[asset]
-        and any(
-            _allows_more(rule, own.get(asset), reports[asset], names)
-            for rule in own.values()
-            if rule.asset != asset
-        )
+        and any(_allows_more(rule, own.get(asset)) for rule in own.values() if rule.asset != asset)
     }
 
 
-def _allows_more(
-    rule: Suggestion, own: Suggestion | None, report: Report, names: frozenset[str]
-) -> bool:
-    """Return whether a rule allows a pair of these names in a report more than what is suggested
-    for it. own: that."""
-    if own is not None:
-        pairs = ((rule.max_thickness, own.max_thickness), (rule.max_depth, own.max_depth))
-        return any(a is not b if a is None or b is None else a > b * MARGIN for a, b in pairs)
-    if report.rules or report.settings.clearance is not None:
+def _allows_more(rule: Suggestion, own: Suggestion | None) -> bool:
+    """Return whether a rule allows a pair of its names more than what is suggested for it. own:
+    that; None: the pair needs no rule, and may not overlap at all."""
+    if own is None:
         return True
-    found = (each for each in report.findings if {each.a, each.b} == names)
-    return any(each.at_rest in OVERLAPS or each.undecided is not None for each in found)
+    pairs = ((rule.max_thickness, own.max_thickness), (rule.max_depth, own.max_depth))
+    return any(a is not b if a is None or b is None else a > b * MARGIN for a, b in pairs)
 
 
 def _fails(finding: Finding) -> bool:
@@ -216,6 +207,7 @@ def _common_units(reports: Mapping[str | None, Report]) -> str | None:
         if known and asset not in known:
             other, unit = next(iter(known.items()))
             message = f"{asset} states no unit of length, and {other} is in {unit}: add --units"
+            message += f" with the unit of {asset}"
             raise SatcheckError(UNITS_UNKNOWN, message)
     return min(known.values(), key=MICROMETRES.__getitem__, default=None)
 

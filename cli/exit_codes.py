@@ -39,7 +39,7 @@ def for_verdict(verdict: Verdict, issues: Iterable[Issue]) -> int:
 
 
 def without_failures(report: Report | SamplesReport) -> Literal["incomplete", "pass"]:
-    """Return the verdict of a report that fails, but for what fails: what is open stays so."""
+    """Return the verdict of a report that fails as if nothing failed: what is open stays so."""
     from satcheck.audit.messages import left_open
     from satcheck.report.report import Report
 

@@ -163,7 +163,7 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
             raise _with_view(error, paths) from None
     _refuse_unknown(inputs.between, scene)
     if inputs.units and _is_typed("units") and _is_stated(paths, scene):
-        instead = f'units = "{inputs.units}" of a body in a scene file is instead of it'
+        instead = f'units = "{inputs.units}" of a body in a scene file overrides it'
         talk(f"satcheck: note: --units has no effect: each file states its unit; {instead}")
     told = (issue for issue in scene.issues if tell_all or issue.severity == "error")
     for issue in dict.fromkeys(told):

@@ -57,14 +57,19 @@ def changed_since(revision: str, assets: Iterable[str], permitted: Permitted) ->
 
 
 def _naming(changed: set[Path], files: set[Path], permitted: Permitted) -> set[Path]:
-    """Files that refer to a changed file, directly or through other files."""
+    """Files that refer to a changed file, directly or through other files, or that cannot be
+    read."""
     names = _Names({path.name for path in changed | files})
     named_by: dict[str, set[Path]] = defaultdict(set)
-    for path in files - changed:
-        for name in names.within(content_of(path, permitted) or b""):
-            named_by[name].add(path)
     naming: set[Path] = set()
-    waiting = {path.name for path in changed}
+    for path in files - changed:
+        content = content_of(path, permitted)
+        if content is None:
+            naming.add(path)
+            continue
+        for name in names.within(content):
+            named_by[name].add(path)
+    waiting = {path.name for path in changed | naming}
     while waiting:
         more = named_by.pop(waiting.pop(), set()) - naming
         naming |= more

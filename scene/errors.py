@@ -26,6 +26,11 @@ class Refused(SatcheckError):
         super().__init__(code, message, file=file, body=body)
         self.line = line
 
+    @property
+    def with_line(self) -> str:
+        """The message, after its line."""
+        return self.message if self.line is None else f"line {self.line}: {self.message}"
+
     @classmethod
     def combined(cls, errors: Sequence[Refused]) -> Refused:
         """The first error, with the others attached."""

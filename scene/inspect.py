@@ -52,7 +52,8 @@ def errors_of(path: str) -> Iterator[None]:
     try:
         yield
     except SatcheckError as error:
-        raise Refused(error.code, error.message, file=path) from error.__cause__
+        message = error.with_line if isinstance(error, Refused) else error.message
+        raise Refused(error.code, message, file=path) from error.__cause__
     except TooManySteps as error:
         message = "a mesh meets itself in so many places that inspecting it takes too many steps"
         raise Refused("too-many-steps", message, file=path) from error

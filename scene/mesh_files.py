@@ -106,7 +106,7 @@ class MeshFiles:
 
     def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
         """In this process, or in the child process, as its reader says. kind: of its documents."""
-        if file.size <= reader.here:
+        if reader.here and file.size <= reader.here:
             with suppress(NeedsChild):
                 return reader.checked(reader.made_here(file))
         if reader.by_name:

@@ -103,8 +103,10 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
             waiting += (part.at(slice(together, None)), part.at(slice(together)))
             continue
         steps += part.active.sum(axis=0)
-        at: Any = travel.at(0.5 * (part.start + part.end))
-        travelled = _travelled(travel, pairs, at, part)
+        middle = 0.5 * (part.start + part.end)
+        at: Any = travel.at(middle)
+        half = np.nextafter(np.maximum(part.end - middle, middle - part.start), inf)
+        travelled = _travelled(travel, pairs, at, half, part.active)
         codes = posed.sift(travel.matrices(at, ids), travelled + tolerances)
         hits = np.where(codes == DEEP, part.start[:, None], inf)
         first_hit = np.minimum(first_hit, hits.min(axis=0))
@@ -122,13 +124,14 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
     ]
 
 
-def _travelled(travel: Travel, pairs: Sequence[Pair], at: Any, part: _Intervals) -> Numbers:
-    """Return how far each pair travels from the middle of each interval to its ends, NaN where it
-    is not asked."""
-    travelled, half = np.full(part.active.shape, np.nan), 0.5 * (part.end - part.start)
-    for k in np.flatnonzero(part.active.any(axis=0)).tolist():
+def _travelled(
+    travel: Travel, pairs: Sequence[Pair], at: Any, half: Numbers, active: Any
+) -> Numbers:
+    """Return how far each pair travels in the time `half` from `at`, NaN where it is not active."""
+    travelled = np.full(active.shape, np.nan)
+    for k in np.flatnonzero(active.any(axis=0)).tolist():
         own = travel.between(at, half, pairs[k].a.id, pairs[k].b.id)
-        travelled[:, k] = np.where(part.active[:, k], own, np.nan)
+        travelled[:, k] = np.where(active[:, k], own, np.nan)
     return travelled
 
 

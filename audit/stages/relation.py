@@ -39,9 +39,7 @@ LAST: dict[Accuracy, Rung] = {
     "parts": "hull",
     "exact": "triangles",
 }
-TOO_MANY_STEPS = (
-    "the triangles meet in so many places that deciding takes more steps than a pair may"
-)
+TOO_MANY_STEPS = "deciding takes more steps than a pair may"
 # Effects that are computed after the ladder for every verdict.
 _EXTRAS: frozenset[Effect] = frozenset(
     ("volume", "contacts", "components", "cross-check", "certificate", "sweep")

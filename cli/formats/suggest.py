@@ -168,7 +168,6 @@ def evidence(rule: Rule, report: SuggestionsReport) -> str:
         said.append(f"in contact in {first.contacts:,} of {_poses(report)}")
     names = sorted({pair.asset for pair in pairs if pair.asset is not None})
     said += [f"in {', '.join(names[:_NAMED])}{', ...' if names[_NAMED:] else ''}"] if names else []
-    said += [f"{counted(rule.others, 'other pair')} of these names"] if rule.others else []
     return ", ".join(said) + ("; the limits add 10 %" if first.why == "contact" else "")
 
 
@@ -199,7 +198,9 @@ def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> s
 def remark(suggestions: Suggestions, pairs: Sequence[Suggestion], *, never: bool) -> str:
     """Return a few lines for standard error."""
     report = suggestions.report
-    said = counted(len(pairs), "pair") + " suggested: confirm each before you allow it."
+    said = "No pair is suggested."
+    if pairs:
+        said = counted(len(pairs), "pair") + " suggested: confirm each before you allow it."
     left = sum(pair.why == "never" for pair in report.suggestions)
     if left and not never:
         poses = _poses(report)

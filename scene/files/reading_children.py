@@ -161,7 +161,4 @@ def _content(file: File, read: str) -> object:
     try:
         return function_at(read)(file)
     except SatcheckError as error:
-        line = error.line if isinstance(error, Refused) else None
-        return Refusal(
-            error.code, error.message if line is None else f"line {line}: {error.message}"
-        )
+        return Refusal(error.code, error.with_line if isinstance(error, Refused) else error.message)

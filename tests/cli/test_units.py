@@ -141,7 +141,7 @@ def test_a_unit_without_effect_is_said(tmp_path: Path) -> None:
     (tmp_path / "b.glb").write_bytes(glb(cube_at(3)))
     said = "--units has no effect: each file states its unit"
     told = satcheck("a.glb", "b.glb", "--units", "mm", cwd=tmp_path).err
-    assert f'{said}; units = "mm" of a body in a scene file is instead of it' in told
+    assert f'{said}; units = "mm" of a body in a scene file overrides it' in told
     assert said not in satcheck("a.glb", "b.glb", cwd=tmp_path).err
     shutil.copy(SAMPLES / "box.obj", tmp_path)
     assert said not in satcheck("a.glb", "box.obj", "--units", "mm", cwd=tmp_path).err

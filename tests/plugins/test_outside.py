@@ -49,6 +49,20 @@ def test_its_files_are_meshes(tmp_path: Path, env: dict[str, str]) -> None:
     assert satcheck("a.tetra", "far.tetra", cwd=tmp_path).code == 2
 
 
+def test_a_reader_that_dies_on_an_empty_file_ends_no_check(tmp_path: Path) -> None:
+    env = install(tmp_path / "installed", "[satcheck.readers]\ndead = dead:READER\n")
+    (tmp_path / "installed" / "dead.py").write_text(
+        "import os\nfrom satcheck.scene.files.readers import Reader\n"
+        "READER = Reader('dead', 'DEAD', ('.dead',), 'dead:read')\n"
+        "def read(file):\n    os._exit(77)\n"
+    )
+    for content in ("", "1"):
+        (tmp_path / "a.dead").write_text(content)
+        ran = satcheck("a.dead", str(SAMPLES / "box.obj"), cwd=tmp_path, env=env)
+        assert ran.code == 2
+        assert "a.dead: the DEAD reader died" in ran.err
+
+
 def test_a_folder_is_checked_for_its_files(tmp_path: Path, env: dict[str, str]) -> None:
     ran = satcheck("batch", ".", "--format", "json", cwd=tmp_path, env=env)
     assert [asset["file"] for asset in ran.document["assets"]] == [

@@ -8,6 +8,7 @@ from pathlib import Path
 from xml.sax.saxutils import escape
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.changed_assets import changed_since
@@ -33,6 +34,14 @@ def commit(folder: Path, files: dict[str, str]) -> None:
 def changed(folder: Path, *names: str) -> list[str]:
     listed = changed_since("HEAD", [str(folder / name) for name in names], NOTHING_ELSE)
     return [Path(path).relative_to(folder).as_posix() for path in listed]
+
+
+def test_a_file_that_is_too_large_to_search_counts_as_changed(tmp_path: Path) -> None:
+    commit(tmp_path, {"scene.toml": "#" * (1 << 20) + "a.obj", "a.obj": "v 1 2 3\n", "b.toml": ""})
+    (tmp_path / "a.obj").write_text("v 1 2 4\n")
+    small = replace(NOTHING_ELSE, megabytes=1)
+    listed = changed_since("HEAD", [str(tmp_path / f"{n}.toml") for n in ("scene", "b")], small)
+    assert listed == [str(tmp_path / "scene.toml")]
 
 
 def test_the_old_name_of_a_renamed_file_is_a_change(tmp_path: Path) -> None:

@@ -1,7 +1,7 @@
 // The steps that a query spends, each about a nanosecond, and its progress. The code counts steps and does not use a
 // clock, so the same query has the same count on every machine. The query makes its budget and hands it to all that it
-// calls. What is made once and kept, as the closing of a surface, has a budget of its own: asked again, a query costs
-// the same.
+// calls. What is made once and kept, as the closing of a surface, is charged to nobody: asked again, a query costs the
+// same.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,10 @@ struct BudgetSpent : std::runtime_error {
   BudgetSpent() : std::runtime_error("the query takes more steps than it may") {}
 };
 
-// The most steps of a query, or of making what is kept, unless less is said. About ten seconds.
+// The most steps of a query, or of an inspection, unless less is said. About ten seconds.
 inline constexpr std::uint64_t kMostSteps = 10'000'000'000;
+// For a query that only polls.
+inline constexpr std::uint64_t kNoEnd = std::numeric_limits<std::uint64_t>::max();
 
 class Budget {
  public:

@@ -181,7 +181,7 @@ the winding. ValueError when the matrix is not affine or singular, OverflowError
       .def("topology", &measure_topology, ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
       .def("oriented",
            [](const Mesh& mesh) {
-             Budget budget = Budget::that_stops(kMostSteps, interrupting());
+             Budget budget = Budget::that_stops(kNoEnd, interrupting());
              return orient(mesh, &budget);
            },
            ReleaseGil(), R"(Welded, with one winding for each component, and the outermost closed shells outward. Copies of a triangle are
@@ -198,13 +198,13 @@ edges along such a crack count as shared.)")
            ReleaseGil(), "The vertex with the largest |coordinate|, and the median of that of all vertices; needs no numpy.")
       .def("convex_hull",
            [](const Mesh& mesh) {
-             Budget budget = Budget::that_stops(kMostSteps, interrupting());
+             Budget budget = Budget::that_stops(kNoEnd, interrupting());
              return convex_hull(mesh.vertices, &budget);
            },
            ReleaseGil())
       .def("convexity_defect",
            [](const Mesh& mesh, double limit) {
-             Budget budget = Budget::that_stops(kMostSteps, interrupting());
+             Budget budget = Budget::that_stops(kNoEnd, interrupting());
              return convexity_defect(mesh, limit, &budget);
            },
            "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are

@@ -140,7 +140,7 @@ void bind_mesh_distance(nb::module_& m) {
       .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
   m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) {
-          Budget budget = Budget::that_stops(kMostSteps, interrupting());
+          Budget budget = Budget::that_stops(kNoEnd, interrupting());
           return mesh_distance(a, b, limit, {}, &budget);
         },
         "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),

@@ -135,7 +135,9 @@ class Climber {
     }
     if (overlap && boxes_nest()) {
       timed(kNesting, [&] {
-        climb_.nesting = mesh_relation(*request_.a->surface(), *request_.b->surface(), poll_).relation;
+        const MeshRelation nested = mesh_relation(*request_.a->surface(), *request_.b->surface(), poll_);
+        if (!nested.decided) throw BudgetSpent();
+        climb_.nesting = nested.relation;
         return true;
       });
     }

@@ -37,7 +37,7 @@ const Aabb& Geometry::bounds() {
 
 bool Geometry::convex() {
   const Lock lock(mutex_);
-  if (!convex_) convex_ = solid_ && convexity_defect(*mesh_, 0.0, &budget_) == 0.0;
+  if (!convex_) convex_ = solid_ && convexity_defect(*mesh_, 0.0) == 0.0;
   return *convex_;
 }
 
@@ -60,7 +60,7 @@ std::shared_ptr<Surface> Geometry::surface_near(const Aabb& region) {
 }
 
 std::shared_ptr<Polytope> Geometry::hull() {
-  return once(mutex_, hull_, [&] { return convex_hull(mesh_->vertices, &budget_); });
+  return once(mutex_, hull_, [&] { return convex_hull(mesh_->vertices); });
 }
 
 std::shared_ptr<Shape> Geometry::hull_shape() {
@@ -68,7 +68,7 @@ std::shared_ptr<Shape> Geometry::hull_shape() {
 }
 
 std::shared_ptr<HullPoints> Geometry::hull_points() {
-  return once(mutex_, hull_points_, [&] { return find_hull_points(*mesh_, &budget_); });
+  return once(mutex_, hull_points_, [&] { return find_hull_points(*mesh_); });
 }
 
 std::shared_ptr<Surface> Geometry::surface_of(Mesh placed) {
@@ -111,10 +111,7 @@ std::shared_ptr<Surface> PlacedGeometry::surface() {
 
 std::shared_ptr<Polytope> PlacedGeometry::hull() {
   if (!transform_) return shared_->hull();
-  return once(mutex_, hull_, [&] {
-    Budget budget = Budget::that_stops(kMostSteps);
-    return convex_hull(mesh()->vertices, &budget);
-  });
+  return once(mutex_, hull_, [&] { return convex_hull(mesh()->vertices); });
 }
 
 std::shared_ptr<Shape> PlacedGeometry::hull_shape() {

@@ -1,5 +1,5 @@
 // The data derived from the mesh of a body, in file and in world coordinates. Each is made once, by the first thread
-// that needs it. Convexity and hulls throw BudgetSpent, time and again, if they take more than kMostSteps.
+// that needs it.
 #pragma once
 
 #include <array>
@@ -53,7 +53,6 @@ class Geometry {
   bool solid_, plain_;
   OpenParts open_;
   mutable std::recursive_mutex mutex_;  // of all below
-  Budget budget_ = Budget::that_stops(kMostSteps);  // of convexity and the hulls
   std::optional<Aabb> bounds_;
   std::optional<bool> convex_;
   std::shared_ptr<Surface> surface_;

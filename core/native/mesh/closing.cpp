@@ -25,8 +25,7 @@ Closing fill_holes(const Surface& open) {
     }
   }
   closing.surface = std::make_shared<const Surface>(make_surface(closed, true));
-  Budget budget = Budget::that_stops(kMostSteps);
-  closing.hulls = hulls_of(open.mesh, closing.holes, &budget);
+  closing.hulls = hulls_of(open.mesh, closing.holes);
   return closing;
 }
 

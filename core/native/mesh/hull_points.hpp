@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/budget.hpp"
 #include "base/mesh.hpp"
 #include "convex/shape.hpp"
 
@@ -18,7 +17,7 @@ struct HullPoints {
   double depth = 0;
 };
 
-HullPoints find_hull_points(const Mesh& mesh, Budget* budget = nullptr);
+HullPoints find_hull_points(const Mesh& mesh);
 
 // The hull, without faces, of the mesh's vertices placed by a 4x4 matrix as in transform(). Empty if the rounding of
 // the placement may bring another vertex to the surface. Throws what transform() throws.

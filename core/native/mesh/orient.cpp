@@ -307,7 +307,7 @@ std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const P
   std::vector<std::uint32_t> place(welded.vertices.size());
   std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
   Labels labels = label_components(sealed, edges);
-  Budget budget = Budget::that_stops(kMostSteps, poll);
+  Budget budget = Budget::that_stops(kNoEnd, poll);
   const std::vector<std::uint32_t> solids = solids_of(sealed, edges, labels, &budget);
   for (std::uint32_t& label : labels.of_triangle) label = solids[label];
   for (const auto& members : labels.members()) {

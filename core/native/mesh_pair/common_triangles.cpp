@@ -32,7 +32,7 @@ struct NamedTriangle {
   std::uint32_t number;
 };
 
-// The triangles whose corners all have a name, in the order of their names. Of each name, only the first number counts.
+// The triangles whose corners all have a name, in the order of their names, then numbers.
 std::vector<NamedTriangle> named_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& names, std::uint32_t none) {
   std::vector<NamedTriangle> named;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -42,10 +42,10 @@ struct MeshRelation {
   std::size_t judged = 0;  // pairs of triangles in contact that needed samples
 };
 
-// The steps that a question about a pair may take, with room for each triangle. poll: called now and then. most: of them.
+// The steps that a question about a pair may take, with room for each triangle. poll: called now and then. most: a limit of these steps.
 Budget budget_of_pair(const Surface& a, const Surface& b, Poll poll, std::uint64_t most = kMostSteps);
 
-// Within budget_of_pair(). payer: pays for the steps, and its last ones are a limit, too.
+// Within budget_of_pair(). payer: pays for the steps; what it has left is a limit, too.
 MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll = {}, Budget* payer = nullptr);
 
 // The same if only a common interior matters, which is faster. `separated` may be touching. With `contains` or
