@@ -10,8 +10,6 @@ the other pairs are still checked.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from heapq import heappop, heappush
-from operator import sub
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -37,9 +35,6 @@ PARALLEL_PAIRS = 8
 # thread; ten million take about a second and a gigabyte.
 BATCH_PAIRS = 256
 BATCH_TRIANGLES = 250_000
-# What a pair that fails takes of the budget for figures, at least (audit/figures.py).
-STEPS_OF_PAIR = 400_000
-
 
 Progress = Callable[[int, int], None]
 
@@ -60,27 +55,13 @@ def examine_pairs(
     order = _along_curve(pairs)
     leaving = {} if keep else _leaving(pairs, order)
     done: dict[int, CheckedPair] = {}
-    # Those with the deepest overlap of boxes. The budget for figures does not reach the others.
-    waiting: list[tuple[float, int]] = []
     for k, checked in _careful(pairs, order) if is_careful() else _batched(pairs, order, jobs):
         done[k] = checked
-        if checked.draft is not None:
-            heappush(waiting, (overlap_of_boxes(pairs[k]), -k))
-        if len(waiting) > pairs[0].settings.work // STEPS_OF_PAIR + 1:
-            last = -heappop(waiting)[1]
-            done[last] = without_draft(done[last])
         for body in leaving.get(k, ()):
             body.release()
         if progress is not None:
             progress(len(done), len(pairs))
     return [done[k] for k in range(len(pairs))]
-
-
-def overlap_of_boxes(pair: Pair) -> float:
-    """Return the length of the shortest translation that takes the boxes apart, world units."""
-    (low_a, high_a), (low_b, high_b) = pair.a.bounds, pair.b.bounds
-    ways: list[float] = [*map(sub, high_a, low_b), *map(sub, high_b, low_a)]
-    return max(0.0, min(ways))
 
 
 def _along_curve(pairs: Sequence[Pair]) -> list[int]:
@@ -194,14 +175,6 @@ def guarded(step: Callable[[], CheckedPair], draft: Draft) -> CheckedPair:
         message = f"{draft.pair.a.id} and {draft.pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
         return CheckedPair(draft.indeterminate(reason), (*draft.issues, issue))
-
-
-def without_draft(pair: CheckedPair) -> CheckedPair:
-    """Return a pair that has all its figures, with what comes after them."""
-    draft = pair.draft
-    if draft is None:  # it failed while it was measured
-        return pair
-    return guarded(lambda: finished(pair.finding, draft), draft)
 
 
 def finished(finding: Finding, draft: Draft) -> CheckedPair:

@@ -14,16 +14,11 @@ from collections.abc import Iterable, Sequence
 
 from msgspec.structs import replace
 
-from satcheck.audit.checked_pairs import (
-    PARALLEL_PAIRS,
-    STEPS_OF_PAIR,
-    CheckedPair,
-    guarded,
-    overlap_of_boxes,
-    without_draft,
-)
+from satcheck.audit.body import box_escape
+from satcheck.audit.checked_pairs import PARALLEL_PAIRS, CheckedPair, finished, guarded
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import measure
+from satcheck.audit.pair import Pair
 from satcheck.audit.parallel import in_parallel
 from satcheck.audit.planner import FOR_FAILURES
 from satcheck.audit.settings import THICKNESS_SHARE, Settings
@@ -33,8 +28,9 @@ from satcheck.report.report import Finding, Issue
 
 # A pair may use this share of the budget, even if that leaves nothing for the last pairs.
 LEAST_SHARE = 1 / 8
-# Steps for what the searches do not count, such as hulls and the proof of a way out, for each
-# triangle of a pair; STEPS_OF_PAIR are those for the pair.
+# Steps for what the searches do not count, such as hulls and the proof of a way out: for a pair,
+# and for each of its triangles.
+STEPS_OF_PAIR = 400_000
 STEPS_OF_TRIANGLE = 1_000
 
 
@@ -45,7 +41,7 @@ def with_figures(
     keep: do not release the data of the bodies."""
     pairs = list(examined)
     drafts = {k: pair.draft for k, pair in enumerate(pairs) if pair.draft is not None}
-    order = sorted(drafts, key=lambda k: (-overlap_of_boxes(drafts[k].pair), k))
+    order = sorted(drafts, key=lambda k: (-_overlap_of_boxes(drafts[k].pair), k))
     left = budget = settings.work
     for number, k in enumerate(order):
         if left <= 0:
@@ -56,15 +52,19 @@ def with_figures(
     threads = settings.jobs or os.cpu_count() or 1
     done: Iterable[CheckedPair]
     if is_careful() or threads == 1 or len(order) < PARALLEL_PAIRS:
-        done = (without_draft(pairs[k]) for k in order)
+        done = (_finished(pairs[k]) for k in order)
     else:
-        done = in_parallel(lambda k: without_draft(pairs[k]), order, threads)
+        done = in_parallel(lambda k: _finished(pairs[k]), order, threads)
     for k, pair in zip(order, done, strict=True):
         pairs[k] = pair
     for draft in drafts.values() if not keep else ():
         draft.pair.a.release()
         draft.pair.b.release()
     return pairs
+
+
+def _overlap_of_boxes(pair: Pair) -> float:
+    return box_escape(pair.a.bounds, pair.b.bounds)[0]
 
 
 def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, int]:
@@ -87,3 +87,10 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
         checked = replace(checked, finding=finding)
     steps = STEPS_OF_PAIR + STEPS_OF_TRIANGLE * pair.triangles
     return checked, draft.work - before + steps
+
+
+def _finished(pair: CheckedPair) -> CheckedPair:
+    draft = pair.draft
+    if draft is None:  # it failed while it was measured
+        return pair
+    return guarded(lambda: finished(pair.finding, draft), draft)
