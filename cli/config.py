@@ -88,8 +88,10 @@ def _as_typed(file: ConfigFile, key: str, option: click.Option) -> Any:
         is_inverted = option.flag_value is False  # --no-timings
         return (False if raw else None) if is_inverted else raw
     if option.nargs > 1:
-        if isinstance(raw, list) and all(isinstance(each, list) for each in raw):
-            return [tuple(map(str, each)) for each in raw]
+        if isinstance(raw, list) and all(
+            isinstance(each, list) and all(isinstance(text, str) for text in each) for each in raw
+        ):
+            return list(map(tuple, raw))
         raise file.refused(key, 'lists in a list expected, as in [["X", "Y"]]')
     texts = raw if option.multiple and isinstance(raw, list) else [raw]
     if any(isinstance(text, bool | list | dict) for text in texts):

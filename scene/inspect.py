@@ -55,7 +55,7 @@ def errors_of(path: str) -> Iterator[None]:
         message = error.with_line if isinstance(error, Refused) else error.message
         raise Refused(error.code, message, file=path) from error.__cause__
     except TooManySteps as error:
-        message = "a mesh meets itself in so many places that inspecting it takes too many steps"
+        message = "a mesh takes too many steps to inspect: simplify it, or split it"
         raise Refused("too-many-steps", message, file=path) from error
     except MemoryError as error:
         not_for_lack_of_memory(error)

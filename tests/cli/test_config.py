@@ -146,6 +146,7 @@ def test_show_says_where_options_come_from(folder: Path) -> None:
         ("clearance = '2 miles'\n", "satcheck.toml:1: clearance: "),
         ("rules = [['a']]\n", "satcheck.toml:1: rules: a text or a number expected"),
         ("between = ['a', 'b']\n", "satcheck.toml:1: between: lists in a list expected"),
+        ("between = [['a', 3]]\n", "satcheck.toml:1: between: lists in a list expected"),
         ("between = [['a']]\n", "satcheck.toml:1: between: Takes 2 values but 1 was given"),
         ("[each]\njobs = 1\n", "satcheck.toml:1: each: no such option"),
         ("debug = true\n", "satcheck.toml:1: debug: no such option"),

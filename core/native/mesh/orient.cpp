@@ -166,8 +166,8 @@ class Nesting {
   // Whether the patch is inside, or on the surface of, other shells. The box test avoids building the tree if no other
   // shell can contain the patch.
   bool is_nested(std::uint32_t patch) {
-    spend(budget_, kBoxWork * patches_.size());
     const bool possible = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& other) {
+      spend(budget_, kBoxWork);
       return &other != &patches_[patch] && other.shell && within(patches_[patch].box, other.box);
     });
     if (!possible) return false;

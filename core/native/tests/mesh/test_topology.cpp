@@ -88,6 +88,18 @@ void orienting_counts_its_steps() {
   CHECK(enough.spent() > 1000 && enough.left() > 0);
 }
 
+// The first other shell has each bubble inside: the boxes of the rest are not looked at.
+void bubbles_cost_what_is_looked_at() {
+  const auto steps = [](int count) {
+    Mesh foam = box({0, 0, 0}, Vec3{1, 1, 1} * (count + 1.0));
+    for (int i = 0; i < count; ++i) append(foam, reversed(box(Vec3{1, 1, 1} * (i + 0.7), Vec3{1, 1, 1} * (i + 1.3))));
+    Budget budget = Budget::that_stops(kMostSteps);
+    orient(foam, &budget);
+    return budget.spent();
+  };
+  CHECK(steps(6000) < 3 * steps(3000));
+}
+
 void orientation_of_shells() {
   const Mesh outer = box({0, 0, 0}, {10, 10, 10}), inner = box({4, 4, 4}, {6, 6, 6});
   CHECK(measure_topology(orient(reversed(unit))).volume == 1);
@@ -230,6 +242,7 @@ UNIT(topology) {
   counts_of_a_box();
   broken_boxes();
   orienting_counts_its_steps();
+  bubbles_cost_what_is_looked_at();
   orientation_of_shells();
   inside_out_box_in_a_notch();
   moebius_band_stays();
