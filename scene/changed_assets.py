@@ -15,14 +15,13 @@ from xml.sax.saxutils import escape
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
-from satcheck.scene.files.readers import SCENE_SUFFIXES, readers, robot_endings
+from satcheck.scene.files.readers import SCENE_SUFFIXES, reader_of, robot_endings
 from satcheck.scene.opening import Permitted, followed
 
 # Files of these endings name no other file with geometry.
 _ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off"))
-_NAMING = SCENE_SUFFIXES.union(readers(), robot_endings(), (".srdf", ".xacro")) - _ALONE
-# Endings of ignored files that count as changed. Build folders hold many other ignored files.
-_READ = _NAMING | _ALONE | {".bin"}
+# Of scenes and robots.
+_PLACING = SCENE_SUFFIXES.union(robot_endings(), (".srdf", ".xacro"))
 
 
 class _Repository(NamedTuple):
@@ -48,12 +47,22 @@ def changed_since(revision: str, assets: Iterable[str], permitted: Permitted) ->
         tracked |= repository.tracked
         changed |= repository.changed
     changed |= {place for place in places.values() if place not in tracked}
-    naming = {path for path in tracked if path.suffix.lower() in _NAMING}
+    naming = {path for path in tracked if _may_name(path)}
     changed |= _naming(changed, naming, permitted)
     # If a link leads to another folder, git lists the link and not the files behind it.
     return [
         path for path, place in places.items() if not changed.isdisjoint((place, *place.parents))
     ]
+
+
+def _is_read(path: Path) -> bool:
+    ending = path.suffix.lower()
+    return ending in _PLACING or ending == ".bin" or reader_of(ending) is not None
+
+
+def _may_name(path: Path) -> bool:
+    ending = path.suffix.lower()
+    return ending not in _ALONE and ending != ".bin" and _is_read(path)
 
 
 def _naming(changed: set[Path], files: set[Path], permitted: Permitted) -> set[Path]:
@@ -114,7 +123,8 @@ def _repository(top: Path, revision: str) -> _Repository:
                        commit, "--")  # fmt: skip
     new = _names(top, "ls-files", "--others", "--exclude-standard", "-z")
     ignored = _names(top, "ls-files", "--others", "--ignored", "--exclude-standard", "-z")
-    read = {path for path in ignored if path.suffix.lower() in _READ}
+    # Build folders hold many ignored files that nothing reads.
+    read = {path for path in ignored if _is_read(path)}
     changed = differing | new | read
     resolved = {followed(path) for path in changed}  # a link that changed leads elsewhere now
     return _Repository(_names(top, "ls-files", "-z"), changed | resolved)

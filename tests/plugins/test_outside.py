@@ -10,6 +10,7 @@ import pytest
 
 from satcheck.core import plugins
 from tests.cli.process import SAMPLES, Ran, satcheck
+from tests.scene.test_changed_assets import git
 
 PACKAGE = Path(__file__).parent / "outside" / "tetra.py"
 UNIT = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
@@ -61,6 +62,19 @@ def test_a_reader_that_dies_on_an_empty_file_ends_no_check(tmp_path: Path) -> No
         ran = satcheck("a.dead", str(SAMPLES / "box.obj"), cwd=tmp_path, env=env)
         assert ran.code == 2
         assert "a.dead: the DEAD reader died" in ran.err
+
+
+def test_a_file_of_its_format_that_names_a_changed_one_has_changed(
+    tmp_path: Path, env: dict[str, str]
+) -> None:
+    (tmp_path / "a.tetra").write_text("see far.tetra")
+    for words in (("init", "-q"), ("add", "."), ("commit", "-qm", "first")):
+        git(tmp_path, *words)
+    (tmp_path / "far.tetra").write_text(UNIT)
+    ran = satcheck(
+        "batch", ".", "--changed-since", "HEAD", "--format", "json", cwd=tmp_path, env=env
+    )
+    assert [asset["file"] for asset in ran.document["assets"]] == ["a.tetra", "far.tetra"]
 
 
 def test_a_folder_is_checked_for_its_files(tmp_path: Path, env: dict[str, str]) -> None:
