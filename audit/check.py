@@ -79,8 +79,8 @@ def check(
     pairs whose bodies cannot be used or compared, only the first LISTED_UNDECIDABLE are listed.
     Report.truncated counts those left out.
 
-    Raises SatcheckError (`too-few-bodies`; from loading: what the scene
-    room raises). A file that cannot be used and a pair that fails are results, not errors.
+    Raises SatcheckError: `too-few-bodies`, and for paths what `load_scene` raises. A file that
+    cannot be used and a pair that fails are results, not errors.
     """
     _refuse_two(scene, settings)
     require_settings(settings)

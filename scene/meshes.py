@@ -54,6 +54,8 @@ class Mesh:
 
     @classmethod
     def of(cls, mesh: MeshLike) -> Mesh:
+        """Return the mesh of an object with vertices and faces, such as a trimesh.Trimesh. A Mesh
+        is returned as it is. Raises SatcheckError."""
         return mesh if isinstance(mesh, Mesh) else cls(*arrays_of(mesh))
 
     @classmethod
