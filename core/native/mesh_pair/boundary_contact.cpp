@@ -33,16 +33,15 @@ class Boundary {
     return entry->second;
   }
 
-  // Whether x, a node of a patch of A, is in the closure of a boundary piece of this surface, B. Empty: not decided.
+  // Whether x, a node of a patch of A, is a corner of a boundary piece of this surface, B. Empty: not decided. Where a
+  // segment that only ties a single point to the patch crosses others, x may be no node in the plane of B.
   std::optional<bool> contains(const LazyPoint& x, const Surface& a) {
     bool decided = true;
     for (const std::uint32_t t : triangles_at(surface_.mesh, surface_.bvh, x, {}, budget_)) {
       if (is_plain(t)) return true;
       if (!has_irregular_partners(surface_, t, budget_)) continue;
       const PlaneCells& cells = cells_of(t, a);
-      const std::vector<std::uint32_t> here = cells.outlines_at(x);
-      decided = decided && !here.empty();
-      for (const std::uint32_t outline : here) {
+      for (const std::uint32_t outline : cells.outlines_at(x)) {
         const auto sides = cells.beside(outline, 1);
         if (sides && sides->is_boundary()) return true;
         decided = decided && sides;
