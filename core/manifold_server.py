@@ -7,6 +7,7 @@ parts may vanish.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 import msgspec
@@ -71,6 +72,7 @@ def _solid(points: NDArray[Any], corners: NDArray[Any]) -> manifold3d.Manifold |
     import manifold3d
     import numpy as np
 
+    points, corners = _one_edge_for_two(points, corners)
     solid = manifold3d.Manifold(manifold3d.Mesh64(points, corners.astype(np.uint64)))
     if solid.status().name != "NoError":
         return str(solid.status().name)
@@ -82,6 +84,74 @@ def _solid(points: NDArray[Any], corners: NDArray[Any]) -> manifold3d.Manifold |
     if abs(solid.volume() - volume) > _SAME * solid.get_tolerance() * solid.surface_area():
         return "Changed"
     return solid
+
+
+def _one_edge_for_two(
+    points: NDArray[Any], corners: NDArray[Any]
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """The same solid, in which no edge has more than two triangles: manifold3d would pair those of
+    a common edge by their numbers, so that surfaces cross there.
+
+    Each wedge of material at such an edge gets a midpoint of its own, which cuts its two triangles.
+    """
+    import numpy as np
+
+    starts, ends = corners.ravel(), corners[:, [1, 2, 0]].ravel()
+    low, high = np.minimum(starts, ends), np.maximum(starts, ends)
+    edges, edge_of, uses = np.unique(
+        low.astype(np.int64) << 32 | high, return_inverse=True, return_counts=True
+    )
+    if uses.max() <= 2:
+        return points, corners
+    midpoint: dict[int, int] = {}  # of a half-edge
+    made: list[NDArray[Any]] = []
+    order = np.argsort(edge_of, kind="stable")
+    first = np.cumsum(uses) - uses
+    for edge in np.flatnonzero(uses > 2):
+        around = order[first[edge] : first[edge] + uses[edge]]
+        for wedge in _wedges(points, corners, around, edges[edge] >> 32):
+            for half_edge in wedge:
+                midpoint[half_edge] = len(points) + len(made)
+            made.append((points[low[wedge[0]]] + points[high[wedge[0]]]) / 2.0)
+    cut = sorted({half_edge // 3 for half_edge in midpoint})
+    pieces = []
+    for t in cut:
+        rim = []  # starts at a midpoint, so that no piece is a needle along an edge
+        for k in range(3):
+            rim.append(int(corners[t, k]))
+            if 3 * t + k in midpoint:
+                rim.append(midpoint[3 * t + k])
+        while rim[0] < len(points):
+            rim.append(rim.pop(0))
+        pieces += [(rim[0], q, r) for q, r in pairwise(rim[1:])]
+    whole = np.delete(corners, cut, axis=0)
+    return np.vstack([points, made]), np.vstack([whole, np.array(pieces, dtype=corners.dtype)])
+
+
+def _wedges(
+    points: NDArray[Any], corners: NDArray[Any], around: NDArray[Any], low: int
+) -> list[tuple[int, int]]:
+    """The pairs of half-edges at one edge between which material lies. low: its first vertex."""
+    import numpy as np
+
+    triangle, side = np.divmod(around, 3)
+    forward = corners[triangle, side] == low  # material ends here, seen with rising angle
+    start, end = corners[triangle[0], side[0]], corners[triangle[0], (side[0] + 1) % 3]
+    axis = (points[end] - points[start]) * (1.0 if forward[0] else -1.0)
+    arms = points[corners[triangle, (side + 2) % 3]] - points[low]
+    across = np.cross(axis, arms[0])
+    angle = np.arctan2(arms @ across * np.linalg.norm(axis), arms @ np.cross(across, axis))
+    # Where two walls lie in each other, the first one ends before the next begins.
+    order = np.lexsort((~forward, angle))
+    ways = [bool(forward[k]) for k in order]
+    turn = next((k for k in range(len(ways)) if ways[k - 1] and not ways[k]), 0)
+    open_, wedges = [], []
+    for k in np.roll(order, -turn):
+        if not forward[k]:
+            open_.append(int(around[k]))
+        elif open_:
+            wedges.append((open_.pop(), int(around[k])))
+    return wedges
 
 
 def _reply(**answer: object) -> bytes:

@@ -15,7 +15,7 @@ from satcheck.core import Mesh
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
 from tests.core.test_mesh_relation import CELL, CUBE, HOLLOW, random_pair
-from tests.core.voxel_solids import IDENTITY, SHEAR, mesh_of_soup
+from tests.core.voxel_solids import IDENTITY, SHEAR, VoxelSolid, mesh_of_soup
 from tests.oracles.tetrahedra import common_volume
 
 DETERMINANT = 17  # of SHEAR
@@ -39,6 +39,22 @@ def test_lattice_solids_against_their_cells(meter: VolumeMeter) -> None:
         assert found.error < 1e-8 * unit
         seen[truth > 0] += 1
     assert min(seen.values()) > 20
+
+
+def test_solids_that_meet_themselves_along_many_edges(meter: VolumeMeter) -> None:
+    """manifold3d pairs the triangles of an edge by their numbers. Where four had one edge, a sixth
+    of a cell got lost here, with an error of 1e-8."""
+    side = range(5)
+    for seed in range(40):
+        rng = random.Random(seed)
+        cells = [(i, j, k) for i in side for j in side for k in side]
+        a, b = (
+            VoxelSolid(frozenset(cell for cell in cells if rng.random() < share))
+            for share in (0.6, 0.15)
+        )
+        found = meter.measure(a.mesh(SHEAR, seed), b.mesh(SHEAR, seed + 1))
+        truth = DETERMINANT * len(a.cells & b.cells)
+        assert abs(found.volume - truth) <= found.error < 1e-8 * DETERMINANT, seed
 
 
 def tetrahedron(corners: list[tuple[float, float, float]]) -> Mesh:
