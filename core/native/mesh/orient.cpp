@@ -23,9 +23,11 @@ namespace {
 struct Patch {
   std::vector<std::uint32_t> triangles, on_rim;
   bool shell = false;  // closed and consistently wound by itself
+  bool solid = false;  // it is, or its component as a whole
   bool alone = true;   // shares no edge with another patch, so that it can be turned by itself
   double volume = 0;   // signed; of an open patch, closed by a cone over its boundary
   Aabb box, rim;
+  Aabb solid_box;  // of all that is solid with it
 };
 
 void flip(Mesh& mesh, Patch& patch) {
@@ -128,9 +130,8 @@ void find_rims(const Mesh& mesh, const EdgeTable& edges, const Labels& labels, s
   }
 }
 
-// A patch is a shell when it runs each of its edges equally often in both directions.
-void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels,
-                 std::vector<Patch>& patches) {
+// A patch is a shell when it runs each of its edges equally often in both directions. Returns the volume of all solids.
+double find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels, std::vector<Patch>& patches) {
   const std::vector<bool> open = find_open_sets(labels, edges);
   for (std::size_t p = 0; p < patches.size(); ++p) patches[p].shell = !open[p];
   find_rims(mesh, edges, labels, patches);
@@ -143,6 +144,21 @@ void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels,
     }
     patch.volume = patch.shell ? signed_volume(mesh.vertices, triangles) : volume_over_rim(mesh, patch);
   }
+  const Labels components = label_components(mesh, edges);
+  const std::vector<bool> open_component = find_open_sets(components, edges);
+  const auto component_of = [&](const Patch& patch) { return components.of_triangle[patch.triangles[0]]; };
+  std::vector<Aabb> boxes(components.count);
+  for (const Patch& patch : patches) boxes[component_of(patch)].include(patch.box);
+  std::vector<Triangle> solid;
+  for (Patch& patch : patches) {
+    const bool by_component = !open_component[component_of(patch)];
+    patch.solid = patch.shell || by_component;
+    patch.solid_box = by_component ? boxes[component_of(patch)] : patch.box;
+    for (const std::uint32_t t : patch.triangles) {
+      if (patch.solid) solid.push_back(mesh.triangles[t]);
+    }
+  }
+  return signed_volume(mesh.vertices, solid);
 }
 
 bool within(const Aabb& inner, const Aabb& outer) {
@@ -163,17 +179,17 @@ class Nesting {
     }
   }
 
-  // Whether the patch is inside, or on the surface of, other shells. The box test avoids building the tree if no other
-  // shell can contain the patch.
+  // Whether the shell is inside, or on the surface of, other solids. The box test avoids building the tree if no other
+  // solid can contain it.
   bool is_nested(std::uint32_t patch) {
     const bool possible = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& other) {
       spend(budget_, kBoxWork);
-      return &other != &patches_[patch] && other.shell && within(patches_[patch].box, other.box);
+      return &other != &patches_[patch] && other.solid && within(patches_[patch].box, other.solid_box);
     });
     if (!possible) return false;
     const Vec3 point = mesh_.vertices[mesh_.triangles[patches_[patch].triangles[0]][0]];
     const auto winding = winding_number(mesh_, tree(), point, [&](std::uint32_t t) {
-      return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].shell;
+      return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].solid;
     }, budget_);
     return winding != 0 && !crosses_another(patch);
   }
@@ -282,11 +298,7 @@ Mesh orient(const Mesh& mesh, Budget* budget) {
   const Labels labels = label_manifold_patches(result, *edges);
   std::vector<Patch> patches = make_patches(labels);
   if (repair_patches(result, *edges, patches)) edges.emplace(result.vertices.size(), result.triangles);
-  find_shells(result, *edges, labels, patches);
-
-  double total = 0;
-  for (const Patch& patch : patches) total += patch.shell ? patch.volume : 0;
-  if (total < 0) {
+  if (find_shells(result, *edges, labels, patches) < 0) {
     for (Patch& patch : patches) flip(result, patch);
   }
   Nesting nesting(result, labels, patches, budget);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -41,6 +43,58 @@ inline WholeBoxes random_boxes(std::mt19937& generator, int count, int size) {
 
 inline bool cell_in(const WholeBoxes& boxes, int x, int y, int z) {
   return std::any_of(boxes.begin(), boxes.end(), [&](const WholeBox& b) { return b.holds_cell(x, y, z); });
+}
+
+// Cells of a lattice of `size` cells a side, one after another along z, then y, then x.
+struct Cells {
+  int size;
+  std::vector<bool> filled;
+
+  bool operator()(int x, int y, int z) const {
+    const auto within = [this](int c) { return 0 <= c && c < size; };
+    return within(x) && within(y) && within(z) && filled[static_cast<std::size_t>((x * size + y) * size + z)];
+  }
+};
+
+// Each cell is filled with this probability. Such solids have caves, and meet themselves along edges and at corners.
+inline Cells random_cells(std::mt19937& generator, int size, double probability) {
+  Cells cells{size, std::vector<bool>(static_cast<std::size_t>(size * size * size))};
+  std::bernoulli_distribution filled(probability);
+  for (std::size_t k = 0; k < cells.filled.size(); ++k) cells.filled[k] = filled(generator);
+  return cells;
+}
+
+// The boundary of the cells, outward, with common vertices.
+inline Mesh boundary_of(const Cells& cells) {
+  Mesh mesh;
+  std::map<std::array<int, 3>, std::uint32_t> numbers;
+  const auto vertex = [&](const std::array<int, 3>& p) {
+    const auto [at, is_new] = numbers.try_emplace(p, static_cast<std::uint32_t>(numbers.size()));
+    if (is_new) mesh.vertices.push_back({p[0] * 1.0, p[1] * 1.0, p[2] * 1.0});
+    return at->second;
+  };
+  for (int x = 0; x < cells.size; ++x)
+    for (int y = 0; y < cells.size; ++y)
+      for (int z = 0; z < cells.size; ++z) {
+        if (!cells(x, y, z)) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          for (const bool upper : {false, true}) {
+            std::array<int, 3> next{x, y, z};
+            next[axis] += upper ? 1 : -1;
+            if (cells(next[0], next[1], next[2])) continue;
+            std::array<std::uint32_t, 4> corner;
+            for (int k = 0; k < 4; ++k) {
+              std::array<int, 3> p{x, y, z};
+              p[axis] += upper;
+              p[(axis + 1) % 3] += k == 1 || k == 2;
+              p[(axis + 2) % 3] += k == 2 || k == 3;
+              corner[static_cast<std::size_t>(upper ? k : 3 - k)] = vertex(p);
+            }
+            mesh.triangles.push_back({corner[0], corner[1], corner[2]});
+            mesh.triangles.push_back({corner[0], corner[2], corner[3]});
+          }
+      }
+  return mesh;
 }
 
 }  // namespace satcheck::testing

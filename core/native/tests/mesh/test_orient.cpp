@@ -3,9 +3,10 @@
 
 #include <random>
 
+#include "mesh/surface.hpp"
 #include "mesh/topology.hpp"
+#include "tests/boxes.hpp"
 #include "tests/check.hpp"
-#include "tests/shapes.hpp"
 
 using namespace satcheck;
 using namespace satcheck::testing;
@@ -100,6 +101,21 @@ void stacks() {
   }
 }
 
+// Solids of random cells, one in two inside out as a whole: what is inside stays inside, and their caves stay caves,
+// also where a cave meets the outer surface along edges.
+void caves() {
+  std::mt19937 generator(19);
+  for (int round = 0; round < rounds(300); ++round) {
+    const Cells cells = random_cells(generator, 5, 0.4 + 0.1 * (round % 5));
+    const Mesh outward = boundary_of(cells);
+    if (outward.triangles.empty()) continue;
+    const Surface solid = make_surface(orient(round % 2 == 0 ? outward : reversed(outward)), true);
+    for (int x = 0; x < 5; ++x)
+      for (int y = 0; y < 5; ++y)
+        for (int z = 0; z < 5; ++z) CHECK(winding_number(solid, {x + 0.5, y + 0.5, z + 0.5}) == (cells(x, y, z) ? 1 : 0));
+  }
+}
+
 // A Moebius strip cannot be wound consistently, and is left as it is.
 void one_sided() {
   Mesh strip;
@@ -136,6 +152,7 @@ void copies() {
 
 UNIT(orient) {
   stacks();
+  caves();
   one_sided();
   copies();
 }
