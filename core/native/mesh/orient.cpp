@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/patches.hpp"
+#include "exact/exact_point.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/cavities.hpp"
@@ -187,10 +188,11 @@ class Nesting {
       return &other != &patches_[patch] && other.solid && within(patches_[patch].box, other.solid_box);
     });
     if (!possible) return false;
-    const Vec3 point = mesh_.vertices[mesh_.triangles[patches_[patch].triangles[0]][0]];
-    const auto winding = winding_number(mesh_, tree(), point, [&](std::uint32_t t) {
-      return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].solid;
-    }, budget_);
+    const auto counts = [&](std::uint32_t t) { return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].solid; };
+    std::optional<int> winding;
+    for (const std::uint32_t t : patches_[patch].triangles) {
+      if ((winding = winding_number(mesh_, tree(), lazy_centroid(corners(t)), counts, budget_))) break;
+    }
     return winding != 0 && !crosses_another(patch);
   }
 
