@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "exact/exact_point.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/bvh.hpp"
@@ -54,27 +55,24 @@ class Cavities {
       std::vector<std::uint32_t> others = *around;
       std::erase(others, c);
       if (around_of(c) != others) continue;
-      if (volumes_[c] > 0 && is_free(wall, c)) return c;
+      if (volumes_[c] > 0 && crosses_nothing(wall)) return c;
       return std::nullopt;
     }
     return std::nullopt;
   }
 
-  bool is_free(std::uint32_t wall, std::uint32_t solid) const {
+  bool crosses_nothing(std::uint32_t wall) const {
     const std::vector<std::uint32_t>& triangles = members_[wall];
     return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
       const Corners mine = corners(t);
       return visit_box(bvh_, mesh_, triangle_box(mesh_, t), [&](std::uint32_t u) {
         spend(budget_, kTriangleWork);
-        if (of_triangle_[u] == wall) return true;
-        const TriangleContact contact = classify(mine, corners(u), budget_);
-        return contact == TriangleContact::disjoint ||
-               (contact == TriangleContact::touching && of_triangle_[u] != solid);
+        return of_triangle_[u] == wall || classify(mine, corners(u), budget_) != TriangleContact::crossing;
       }, budget_);
     });
   }
 
-  // The closed components around a corner of this one.
+  // The closed components around a point of this one.
   const Around& around_of(std::uint32_t component) {
     const auto [at, is_new] = around_.try_emplace(component);
     if (is_new) at->second = find_around(component);
@@ -83,22 +81,22 @@ class Cavities {
 
   Around find_around(std::uint32_t component) const {
     for (const std::uint32_t t : members_[component]) {
-      const Vec3 corner = mesh_.vertices[mesh_.triangles[t][0]];
-      const auto here = triangles_at(mesh_, bvh_, corner, {}, budget_);
+      const LazyPoint point = lazy_centroid(corners(t));
+      const auto here = triangles_at(mesh_, bvh_, point, {}, budget_);
       if (!std::all_of(here.begin(), here.end(), [&](std::uint32_t u) { return of_triangle_[u] == component; })) continue;
-      const Heading first = nearest_wall(bvh_.nodes[0].box, corner);
+      const Heading first = nearest_wall(bvh_.nodes[0].box, point.rounded);
       for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
-        const Vec3 far = outside_point(bvh_.nodes[0].box, corner, first, attempt);
-        if (Around around = crossed(component, corner, far)) return around;
+        const Vec3 far = outside_point(bvh_.nodes[0].box, point.rounded, first, attempt);
+        if (Around around = crossed(component, point, far)) return around;
       }
     }
     return std::nullopt;
   }
 
   // The closed components that the segment crosses more often one way than the other. Empty if it meets an edge.
-  Around crossed(std::uint32_t besides, Vec3 from, Vec3 far) const {
+  Around crossed(std::uint32_t besides, const LazyPoint& from, Vec3 far) const {
     std::map<std::uint32_t, int> windings;
-    Aabb path{from, from};
+    Aabb path = point_box(from);
     path.include(far);
     const bool generic = visit_box(bvh_, mesh_, path, [&](std::uint32_t t) {
       const std::uint32_t c = of_triangle_[t];

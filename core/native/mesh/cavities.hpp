@@ -11,8 +11,8 @@
 namespace satcheck {
 
 // For each component the one that it belongs to: the solid whose cavity it bounds, else itself. A wall is closed, faces
-// inward, crosses no component, and lies within an outward one that it does not touch, with no other wall between them.
-// Signs are exact; what they leave open is no wall.
+// inward, crosses no component, and lies within an outward one, with no other wall between them. Signs are exact; what
+// they leave open is no wall.
 std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components,
                                      Budget* budget = nullptr);
 

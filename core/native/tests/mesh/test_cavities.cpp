@@ -1,0 +1,41 @@
+// The parts of solids of random cells: each is a solid with its caves, and together they are the cells.
+#include "mesh/cavities.hpp"
+
+#include "mesh/surface.hpp"
+#include "mesh/topology.hpp"
+#include "tests/boxes.hpp"
+#include "tests/check.hpp"
+
+using namespace satcheck;
+using namespace satcheck::testing;
+
+namespace {
+
+// Caves often touch the surface around them at a corner, where no edge is common.
+void caves_belong_to_their_solids() {
+  std::mt19937 generator(6);
+  std::size_t several = 0;
+  for (int round = 0; round < rounds(200); ++round) {
+    const Cells cells = random_cells(generator, 5, 0.15 + 0.2 * (round % 5));
+    const std::vector<Mesh> parts = split_components(boundary_of(cells));
+    several += parts.size() > 1;
+    std::vector<Surface> solids;
+    for (const Mesh& part : parts) solids.push_back(make_surface(part, true));
+    for (int x = 0; x < 5; ++x)
+      for (int y = 0; y < 5; ++y)
+        for (int z = 0; z < 5; ++z) {
+          int sum = 0;
+          for (const Surface& solid : solids) {
+            const int winding = winding_number(solid, {x + 0.5, y + 0.5, z + 0.5}).value_or(-9);
+            CHECK(winding == 0 || winding == 1);
+            sum += winding;
+          }
+          CHECK(sum == (cells(x, y, z) ? 1 : 0));
+        }
+  }
+  CHECK(several > 0);
+}
+
+}  // namespace
+
+UNIT(cavities) { caves_belong_to_their_solids(); }
