@@ -131,8 +131,8 @@ void find_rims(const Mesh& mesh, const EdgeTable& edges, const Labels& labels, s
   }
 }
 
-// A patch is a shell when it runs each of its edges equally often in both directions. Returns the volume of all solids.
-double find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels, std::vector<Patch>& patches) {
+// A patch is a shell when it runs each of its edges equally often in both directions.
+void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels, std::vector<Patch>& patches) {
   const std::vector<bool> open = find_open_sets(labels, edges);
   for (std::size_t p = 0; p < patches.size(); ++p) patches[p].shell = !open[p];
   find_rims(mesh, edges, labels, patches);
@@ -145,21 +145,30 @@ double find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& label
     }
     patch.volume = patch.shell ? signed_volume(mesh.vertices, triangles) : volume_over_rim(mesh, patch);
   }
+}
+
+// Returns the volume of all solids.
+double find_solids(const Mesh& mesh, const EdgeTable& edges, std::vector<Patch>& patches) {
+  double volume = 0;
+  for (Patch& patch : patches) {
+    patch.solid = patch.shell;
+    patch.solid_box = patch.box;
+    if (patch.shell) volume += patch.volume;
+  }
+  if (std::all_of(patches.begin(), patches.end(), [](const Patch& patch) { return patch.shell; })) return volume;
   const Labels components = label_components(mesh, edges);
-  const std::vector<bool> open_component = find_open_sets(components, edges);
+  const std::vector<bool> open = find_open_sets(components, edges);
   const auto component_of = [&](const Patch& patch) { return components.of_triangle[patch.triangles[0]]; };
   std::vector<Aabb> boxes(components.count);
   for (const Patch& patch : patches) boxes[component_of(patch)].include(patch.box);
-  std::vector<Triangle> solid;
+  std::vector<Triangle> others;  // of solids that are no shells
   for (Patch& patch : patches) {
-    const bool by_component = !open_component[component_of(patch)];
-    patch.solid = patch.shell || by_component;
-    patch.solid_box = by_component ? boxes[component_of(patch)] : patch.box;
-    for (const std::uint32_t t : patch.triangles) {
-      if (patch.solid) solid.push_back(mesh.triangles[t]);
-    }
+    if (patch.shell || open[component_of(patch)]) continue;
+    patch.solid = true;
+    patch.solid_box = boxes[component_of(patch)];
+    for (const std::uint32_t t : patch.triangles) others.push_back(mesh.triangles[t]);
   }
-  return signed_volume(mesh.vertices, solid);
+  return volume + signed_volume(mesh.vertices, others);
 }
 
 bool within(const Aabb& inner, const Aabb& outer) {
@@ -300,7 +309,8 @@ Mesh orient(const Mesh& mesh, Budget* budget) {
   const Labels labels = label_manifold_patches(result, *edges);
   std::vector<Patch> patches = make_patches(labels);
   if (repair_patches(result, *edges, patches)) edges.emplace(result.vertices.size(), result.triangles);
-  if (find_shells(result, *edges, labels, patches) < 0) {
+  find_shells(result, *edges, labels, patches);
+  if (find_solids(result, *edges, patches) < 0) {
     for (Patch& patch : patches) flip(result, patch);
   }
   Nesting nesting(result, labels, patches, budget);
