@@ -28,6 +28,8 @@ from satcheck.report.report import Vector
 
 # An interval on both sides of a limit is narrowed again, each time by this factor.
 NARROWER = 8
+# Length, normal, and the translation of a search.
+_Way = tuple[float, Vector, Vector | None]
 
 
 def concave_depth(draft: Draft) -> Depth:
@@ -37,11 +39,11 @@ def concave_depth(draft: Draft) -> Depth:
     hulls = way_out_of_hulls(pair)
     draft.record("depth", "upper bound", f"at most {hulls.upper:.6g} by the {hulls.by}")
     lower, upper = _cheap_lower_bound(draft), hulls.upper
-    ways = [(hulls.length, hulls.normal)]
+    ways: list[_Way] = [(hulls.length, hulls.normal, None)]
     if pair.may("exact"):
         lower, upper, way_out = _searched(draft, lower, upper)
         if way_out is not None:
-            ways.insert(0, _length_and_normal(way_out))
+            ways.insert(0, (*_length_and_normal(way_out), way_out))
     elif draft.exact_proven and pair.may("parts"):
         lower = max(lower, depth_of_parts(draft))
     escape = _shortest_escape(draft, ways)
@@ -51,13 +53,13 @@ def concave_depth(draft: Draft) -> Depth:
     return Depth(min(lower, upper), upper, escape)
 
 
-def _shortest_escape(draft: Draft, ways: list[tuple[float, Vector]]) -> Escape:
-    """Return the shortest of these ways out once verified. ways: lengths and normals, the shortest
-    first. The next is tried only if verification made the best one longer than it."""
+def _shortest_escape(draft: Draft, ways: list[_Way]) -> Escape:
+    """Return the shortest of these ways out once verified. ways: the shortest first. The next is
+    tried only if verification made the best one longer than it."""
     shortest = verified_escape(draft, *ways[0])
-    for length, normal in ways[1:]:
+    for length, normal, found in ways[1:]:
         if shortest.bound > length:
-            escape = verified_escape(draft, length, normal)
+            escape = verified_escape(draft, length, normal, found)
             shortest = min(shortest, escape, key=lambda each: each.bound)
     return shortest
 

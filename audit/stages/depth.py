@@ -77,8 +77,13 @@ FREE = frozenset({"separated", "touching"})
 LENGTHENING_ULPS = (4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304)
 
 
-def verified_escape(draft: Draft, length: float, normal: Vector) -> Escape:
+def verified_escape(
+    draft: Draft, length: float, normal: Vector, found: Vector | None = None
+) -> Escape:
     """The shortest accepted translation along -normal, at least `length` long.
+
+    found: that of a search, from which both follow but for rounding. It is taken where a longer one
+    is not free, as in a hole into which A just fits.
 
     The nominal length is tried only where adding it to A's coordinates rounds nothing; elsewhere a
     few ulps are added at once, so that another program's order of rounding separates too. The
@@ -98,6 +103,9 @@ def verified_escape(draft: Draft, length: float, normal: Vector) -> Escape:
             draft.record("verify", relation, f"A moved by its MTV{longer}")
             bound = length if step == 0 else length + (step + 2) * ulp
             return Escape(mtv, normal, True, bound)
+    if found is not None and (relation := relation_after(pair, found)) in FREE:
+        draft.record("verify", relation, "A moved by its MTV; a longer one is not free")
+        return Escape(found, normal, True, length + 2 * ulp)
     most = f"{LENGTHENING_ULPS[-1]} units in the last place"
     draft.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
     return Escape(_along(normal, length), normal, False, math.inf)

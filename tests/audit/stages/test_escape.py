@@ -10,6 +10,7 @@ from satcheck import core
 from satcheck.audit import Settings, check
 from satcheck.audit.stages.depth import rounds_once
 from tests.audit.shapes import bracket, placed_scene, pose, scene_of, unit_box, write
+from tests.core.voxel_solids import VoxelSolid
 
 
 def only(report):
@@ -46,6 +47,17 @@ def test_turned_boxes_are_free_after_the_move(tmp_path, turn, x):
     hull_a, hull_b = moved_hull(scene.bodies[0], finding.mtv), moved_hull(scene.bodies[1])
     assert core.check_pair(hull_a, hull_b, query="overlap").outcome in ("separated", "touching")
     assert math.hypot(*finding.mtv) == pytest.approx(finding.depth, rel=1e-12)
+
+
+def test_a_peg_moves_into_the_hole_in_which_it_just_fits(tmp_path):
+    """A is the first cell of a block whose only hole is one cell wide, two cells away along x and
+    one along y. No longer translation along that way is free."""
+    side = range(-5, 6)
+    block = {(x, y, z) for x in side for y in side for z in side if (x, y) != (2, 1)}
+    peg, solid = (VoxelSolid(frozenset(cells)).mesh() for cells in ({(0, 0, 0)}, block))
+    finding = only(check(scene_of(tmp_path, a=peg, b=solid), Settings(depth=True)))
+    assert finding.mtv == pytest.approx((2.0, 1.0, 0.0), rel=1e-14)
+    assert finding.mtv_verified
 
 
 def test_a_capped_ladder_verifies_what_it_may(tmp_path):
