@@ -23,9 +23,7 @@ from satcheck.scene.files.nodes import Split
 from satcheck.scene.files.readers import GeometryKind, ReadLimits, ReadOptions, kind_of
 from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.opening import Permitted, is_folder
-from satcheck.scene.rules import GROUP
-from satcheck.scene.words import listed, meant
+from satcheck.scene.opening import Permitted, exists, is_folder
 
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(
@@ -197,14 +195,8 @@ def _refuse_unknown(between: Sequence[tuple[str, str]], scene: Scene) -> None:
     """Refuse a name of --between that selects nothing, unless an input cannot be read."""
     for name in () if scene.unreadable else chain.from_iterable(between):
         selector = Selector(name)
-        if selector.select(scene.bodies):
-            continue
-        names = [body.id for body in scene.bodies]
-        if selector.of_groups:
-            names = sorted({f"{GROUP}{each}" for body in scene.bodies for each in body.groups})
-        known = meant(name, names) or f": there are {listed(names) or 'none'}"
-        what = "group" if selector.of_groups else "body"
-        raise click.UsageError(f"{origin_of('between')}: no {what} is {name}{known}")
+        if not selector.select(scene.bodies):
+            raise click.UsageError(f"{origin_of('between')}: {selector.unmatched(scene.bodies)}")
 
 
 def _is_stated(paths: Sequence[str], scene: Scene) -> bool:
@@ -275,7 +267,7 @@ def _one_body(inputs: Inputs, scene: Scene) -> click.ClickException:
 
 
 def _refuse_first_word(word: str) -> None:
-    if word not in ("check", "help", "each", "report"):
+    if exists(word):
         return
     from satcheck.cli.slips import about_first_word
 
