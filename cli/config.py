@@ -218,20 +218,19 @@ def read_config(path: Path, *, found: bool = False, folder: Path = Path()) -> Co
     """Return the file. None: it was found, and has no table for satcheck. folder: in which the path
     begins."""
     from satcheck.scene.opening import read_whole
-    from satcheck.scene.words import why_unreadable
 
     keys = ("tool", "satcheck") if path.name == PROJECT else ()
     try:
         data = read_whole(str(path), folder / path)
         if found and keys and b"satcheck" not in data:
             return None  # without a parser
-        import tomllib
+        from satcheck.scene.scene_file.text import read_toml
 
-        table: Any = tomllib.loads(data.decode())
+        table: Any = read_toml(path.as_posix(), data.decode())
     except SatcheckError as error:
         raise _bad_config(str(error)) from None
-    except (ValueError, RecursionError) as error:
-        raise _bad_config(f"{path}: not readable TOML: {why_unreadable(error)}") from None
+    except UnicodeDecodeError:
+        raise _bad_config(f"{path}: not UTF-8") from None
     for key in keys:
         table = table.get(key) if isinstance(table, dict) else None
     if isinstance(table, dict):
