@@ -114,23 +114,46 @@ def check_worlds(
             return code
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
-        with StoredResults([Path(path)]) as stored:
-            found = (each.asset for each in stored)
-            seen = overview(found, issues, top=to.top, compares=compares and not left)
-            drawing = Drawing(
-                allow_outside=inputs.allow_outside,
-                top=to.top or Drawing().top,
-                undrawn="interrupted" if left else "",  # each would take as long as a check
-            )
-            deliver_assets(document, seen, stored, to, drawing)
-            if to.quiet or Target("table", None) not in to.targets:
-                _tell_errors(stored)
-    if not to.quiet:
-        tell_assets(seen, to)
+        deliver = partial(_deliver, document, Path(path), issues, to, inputs.allow_outside)
+        compares, is_broken_off = compares and not left, bool(left)
+        try:
+            seen = deliver(compares, undrawn=is_broken_off)
+        except KeyboardInterrupt:
+            if stays or document.is_begun:
+                raise
+            write_before_the_end()
+            seen, is_broken_off = deliver(compares, undrawn=True), True
     if left:
         talk(f"satcheck: {issues[0].message}")
-        return exit_codes.INTERRUPTED
-    return seen.exit_code(exit_zero=to.exit_zero)
+    return exit_codes.INTERRUPTED if is_broken_off else seen.exit_code(exit_zero=to.exit_zero)
+
+
+def _deliver(
+    document: Document,
+    results: Path,
+    issues: tuple[Issue, ...],
+    to: Delivery,
+    allow_outside: bool,
+    compares: bool,
+    *,
+    undrawn: bool,
+) -> Overview:
+    """Write the documents of a file of results. undrawn: after Ctrl-C, as each picture would take
+    as long as a check."""
+    with StoredResults([results]) as stored:
+        found = (each.asset for each in stored)
+        seen = overview(found, issues, top=to.top, compares=compares)
+        drawing = Drawing(
+            allow_outside=allow_outside,
+            top=to.top or Drawing().top,
+            undrawn="interrupted" if undrawn else "",
+        )
+        deliver_assets(document, seen, stored, to, drawing)
+        if to.quiet or Target("table", None) not in to.targets:
+            _tell_errors(stored)
+    if not to.quiet:
+        tell_assets(seen, to)
+    return seen
 
 
 def _run(
