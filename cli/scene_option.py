@@ -10,7 +10,7 @@ from typing import get_args
 
 import click
 
-from satcheck.cli.option import limits, together
+from satcheck.cli.option import Whole, limits, together
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.files.readers import GEOMETRY, GeometryKind, OptionValue, option_named, options
 from satcheck.scene.opening import is_folder
@@ -141,13 +141,13 @@ poses = together(
     ),
     click.option(
         "--sample",
-        type=click.IntRange(min=1),
+        type=Whole(min=1),
         metavar="N",
         help="Check N random poses; joints in --pose and --state stay.",
     ),
     click.option(
         "--seed",
-        type=click.IntRange(min=0),
+        type=Whole(min=0),
         metavar="N",
         help="The seed of the random poses.  [default: 0]",
     ),

@@ -30,7 +30,7 @@ TABLE_ROWS = 20
 @option.pair
 @click.option(
     "--top",
-    type=click.IntRange(min=1),
+    type=option.Whole(min=1),
     metavar="N",
     help=f"List the N most telling axes: the largest gaps, then the smallest overlaps. "
     f"[default: {TABLE_ROWS} in a table, all in JSON]",

@@ -49,7 +49,7 @@ SMALL_BODIES = 2
 SMALL_TRIANGLES = 1000
 # Objects made between two searches for cycles: of what a check makes almost none is in one.
 COLLECT_AFTER = 50_000
-WIDTH = click.FloatRange(0, 1, min_open=True, max_open=True)
+WIDTH = option.Number(0, 1, min_open=True, max_open=True)
 
 
 class _DefaultContext(click.Context):
@@ -152,7 +152,7 @@ units split sample explain version"""
 @option.setting("accuracy", type=click.Choice(ACCURACIES), metavar="LEVEL")
 @option.method
 @option.setting("width", type=WIDTH, metavar="RATIO")
-@option.setting("budget", type=click.FloatRange(0, MOST_BUDGET, min_open=True), metavar="SECONDS")
+@option.setting("budget", type=option.Number(0, MOST_BUDGET, min_open=True), metavar="SECONDS")
 @option.planar
 @scene_option.split
 @option.setting("fail_on", type=click.Choice(FAIL_ON), metavar="SEVERITY")

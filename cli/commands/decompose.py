@@ -45,7 +45,7 @@ _Split = tuple[Body, Decomposition | SatcheckError]
 @option.paths("MESH")
 @click.option(
     "--threshold",
-    type=click.FloatRange(0, 1, min_open=True),
+    type=option.Number(0, 1, min_open=True),
     metavar="RATIO",
     default=option.DEFAULTS.part_threshold,
     show_default=True,
@@ -54,7 +54,7 @@ _Split = tuple[Body, Decomposition | SatcheckError]
 )
 @click.option(
     "--seed",
-    type=click.IntRange(min=0, max=2**32 - 1),
+    type=option.Whole(min=0, max=2**32 - 1),
     metavar="N",
     default=option.DEFAULTS.part_seed,
     show_default=True,

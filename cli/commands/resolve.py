@@ -47,7 +47,7 @@ from satcheck.scene.units import Length
 @click.option("--max-motion", type=length, help="Move no body farther than this.")
 @click.option(
     "--iterations",
-    type=click.IntRange(min=0),
+    type=option.Whole(min=0),
     metavar="N",
     default=50,
     show_default=True,

@@ -69,7 +69,7 @@ _FORMATS = {
 )
 @click.option(
     "--top",
-    type=click.IntRange(min=1),
+    type=option.Whole(min=1),
     metavar="N",
     help="Report the N worst assets, the worst first; in a gallery and for --pictures their worst "
     f"findings. The summary and the exit code count all.  [default: {TOP} in a table and a "
@@ -84,7 +84,7 @@ _FORMATS = {
 )
 @click.option(
     "--pose",
-    type=click.IntRange(1),
+    type=option.Whole(1),
     metavar="NUMBER",
     help="The pose to show, if a report has several.  [default: all on a page, else the worst]",
 )

@@ -189,7 +189,9 @@ def _steps_of_folders(seen: Overview) -> list[str]:
         return []
     steps = []
     if seen.named.get("fail") and not (ctx.params["rules"] or ctx.params["baseline"]):
-        line = shlex.join(["satcheck", "suggest", *paths, "-o", "rules.toml"])
+        from satcheck.cli.slips import call_of
+
+        line = call_of("suggest", paths, ctx, ["-o", "rules.toml"])
         steps.append(f"Next: {line} proposes rules for overlaps that are meant.")
     for file in seen.named.get("error", [])[:1]:
         name = shlex.quote(escape(PurePath(file).name))
