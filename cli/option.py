@@ -80,6 +80,10 @@ class _Range:
         message = f"{what} {' and '.join(ends)} is expected"
         raise click.BadParameter(message, ctx=ctx, param=param)
 
+    def _describe_range(self) -> str:
+        """Return nothing for the help: the message states it where it matters."""
+        return ""
+
 
 class Whole(_Range, click.IntRange):
     """A whole number of at least `min`."""

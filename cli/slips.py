@@ -237,7 +237,7 @@ def call_of(name: str, paths: Sequence[str], ctx: click.Context, more: Sequence[
     for option in dict.fromkeys(order):
         if option.param_type_name == "option" and option.name in known:
             value = values[option.name]
-            is_of_file = option.name == "read" and len(paths) == 1
+            is_of_file = option.name == "reading" and len(paths) == 1
             kept += _as_given(option, _counting(value, paths[0]) if is_of_file else value)
     return _line([*([] if name == DEFAULT_COMMAND else [name]), *paths, *kept, *more])
 

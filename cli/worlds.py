@@ -14,7 +14,6 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import click
-from msgspec.structs import asdict
 
 from satcheck.audit.baseline import read_baseline
 from satcheck.audit.batch.local import check_locally
@@ -48,7 +47,7 @@ from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.asset_files import Assets, asset_files
-from satcheck.scene.loader import has_only_rules, read_rules
+from satcheck.scene.loader import LoadOptions, has_only_rules, read_rules
 from satcheck.scene.opening import STANDARD_INPUT, Permitted
 from satcheck.scene.words import listed
 
@@ -239,9 +238,9 @@ def check_options(
     if baseline is not None:
         read_baseline(baseline)
     for path in inputs.rules:
-        read_rules(str(path), inputs.permitted)
+        read_rules(path, inputs.permitted)
     return CheckOptions(
-        **asdict(inputs.load_options),
+        **{name: getattr(inputs, name) for name in LoadOptions.__struct_fields__},
         settings={**options, **inputs.limits},
         names=names_of_lengths(options),
         baseline=None if baseline is None else str(baseline),

@@ -39,14 +39,8 @@ TABLE_ROWS = 20
 @option.planar
 @form_option
 @option.output
-@scene_option.split
-@scene_option.merge
-@scene_option.units
 @option.open_meshes
-@scene_option.reading
-@scene_option.package
-@scene_option.geometry
-@scene_option.one_pose
+@scene_option.one_scene
 @option.common
 def command(
     form: str | None,

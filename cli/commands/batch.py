@@ -166,7 +166,7 @@ def command(
     if since is not None:
         if any(map(is_remote, worlds)):
             raise click.UsageError("--changed-since is about files of this machine, not at URLs")
-        shared = [*inputs.rules, *filter(None, [baseline, Path(config.file) if config else None])]
+        shared = [*inputs.rules, *map(str, filter(None, [baseline, config and config.file]))]
         worlds = _changed(since, worlds, shared, inputs.permitted)
     if not quiet:
         tell_foreign(set(worlds).intersection(foreign))
@@ -204,10 +204,10 @@ def _targets(form: str | None, outputs: Sequence[str]) -> tuple[tuple[Target, ..
 
 
 def _changed(
-    revision: str, worlds: Sequence[World], shared: Sequence[Path], permitted: Permitted
+    revision: str, worlds: Sequence[World], shared: Sequence[str], permitted: Permitted
 ) -> Sequence[World]:
     """Return the assets that changed. shared: what these files say of every asset counts."""
-    if new := changed_since(revision, list(map(str, shared)), permitted):
+    if new := changed_since(revision, shared, permitted):
         talk(f"satcheck: {new[0]} changed since {revision}: every asset is checked")
         return worlds
     named = [name for world in worlds for name in world if not is_folder(name)]
@@ -238,7 +238,7 @@ def _refuse(
     for output in outputs if files else ():
         refuse_early(read, output, baseline)
     readers = [mesh_reader(Path(name).suffix) for name in files]
-    for name in typed(inputs.read):
+    for name in typed(inputs.reading):
         if None not in readers and not any(
             name in {each.name for each in reader.options} for reader in readers if reader
         ):

@@ -181,7 +181,7 @@ units split sample explain version"""
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only; -o still writes the report.")
 @option.exit_zero
 @scene_option.units
-@scene_option.reading
+@scene_option.reading()
 @scene_option.package
 @scene_option.geometry
 @scene_option.poses

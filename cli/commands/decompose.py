@@ -67,9 +67,7 @@ _Split = tuple[Body, Decomposition | SatcheckError]
 )
 @scene_option.split
 @scene_option.units
-@scene_option.outside
-@option.limits("body-seconds")
-@scene_option.read
+@scene_option.reading("body-seconds")
 @option.common
 def command(
     outputs: tuple[Path, ...],

@@ -154,7 +154,7 @@ def _written(
             [str(path)],
             units=inputs.units,
             allow_outside=inputs.allow_outside,
-            reading=inputs.read,
+            reading=inputs.reading,
             geometry=inputs.geometry,
         )
     except SatcheckError:

@@ -56,12 +56,7 @@ FORMATS = {
 @option.output
 @option.exclude
 @option.planar
-@scene_option.split
-@scene_option.merge
-@scene_option.units
-@scene_option.reading
-@scene_option.package
-@scene_option.geometry
+@scene_option.scene
 @scene_option.poses
 @option.common
 def command(

@@ -27,10 +27,8 @@ from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import BesideBaseline, config_lines
 from satcheck.cli.formats.tables import (
-    BOLD_MAGENTA,
-    BOLD_RED,
-    GREEN,
     ROWS,
+    VERDICT_STYLES,
     Column,
     all_begin,
     fitted_each,
@@ -52,20 +50,12 @@ if TYPE_CHECKING:
 
 # Kinds of problems that make an asset incomplete.
 _OPEN = (NOTHING_TO_CHECK, "undecided")
-# Colour only repeats what the word says.
-_STYLES = {
-    "pass": GREEN,
-    "fail": BOLD_RED,
-    "incomplete": BOLD_MAGENTA,
-    "error": BOLD_MAGENTA,
-}
-
-
-_WORDS: dict[AssetVerdict, str] = {
-    "error": "ERROR",
-    "fail": "FAIL",
-    "incomplete": "INCOMPLETE",
-    "pass": "PASS",
+# What one asset does, and what several do.
+_VERDICTS: dict[AssetVerdict, tuple[str, str]] = {
+    "error": ("has errors", "have errors"),
+    "fail": ("fails", "fail"),
+    "incomplete": ("incomplete", "incomplete"),
+    "pass": ("passes", "pass"),
 }
 _NOTHING_COMPARED = Issue(
     NOTHING_TO_CHECK,
@@ -148,22 +138,16 @@ def _counts(seen: Overview, *, names: bool) -> str:
     if seen.verdict == "pass" and seen.lone == seen.total:
         said = f"{total} ({nothing})" if seen.total else total
         return f"PASS: {', '.join([said, *accepted])}."
-    words: dict[AssetVerdict, str] = {
-        "error": "have errors" if counts["error"] > 1 else "has errors",
-        "fail": "fail" if counts["fail"] > 1 else "fails",
-        "incomplete": "incomplete",
-        "pass": "pass" if counts["pass"] > 1 else "passes",
-    }
     parts = [
-        f"{counts[verdict]:,} {said}{_named(seen, verdict) if names else ''}"
-        for verdict, said in words.items()
+        f"{counted(counts[verdict], *words)}{_named(seen, verdict) if names else ''}"
+        for verdict, words in _VERDICTS.items()
         if counts[verdict]
     ]
     if seen.lone:
         some = "" if seen.lone == counts["pass"] else f"{seen.lone:,} "
         parts[-1] += f" ({some}{nothing})"
     parts += accepted
-    return f"{_WORDS[seen.verdict]}: {': '.join([total, *filter(None, [', '.join(parts)])])}."
+    return f"{seen.verdict.upper()}: {': '.join([total, *filter(None, [', '.join(parts)])])}."
 
 
 def next_step(seen: Overview) -> list[str]:
@@ -224,7 +208,7 @@ def _table(assets: list[Asset], root: str, page: Page) -> list[str]:
         Column("fail", pairs, right=True),
         Column("worst", worst, folds=True),
     )
-    return table(columns, page, [_STYLES[asset.verdict] for asset in assets])
+    return table(columns, page, [VERDICT_STYLES[asset.verdict] for asset in assets])
 
 
 def cells_of(asset: Asset) -> tuple[str, str, str, str]:
