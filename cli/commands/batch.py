@@ -36,7 +36,7 @@ from satcheck.core.plugins import function_at
 from satcheck.scene.asset_files import NO_ASSETS
 from satcheck.scene.changed_assets import changed_since
 from satcheck.scene.files.readers import mesh_reader
-from satcheck.scene.opening import Permitted, is_folder
+from satcheck.scene.opening import is_folder
 
 # What is about one world, or about one report.
 _NOT_HERE = (
@@ -144,15 +144,9 @@ def command(
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
     targets, results = _targets(form, outputs)
-    if (engine == "dask") != (scheduler is not None):
-        raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
-    if not (inputs.paths or manifest):
-        raise click.UsageError("give a folder or files: `satcheck batch .` checks this folder")
-    local = tuple(name for name in inputs.paths if not is_url(name))
-    assets = asset_names(replace(inputs, paths=local)) if local else NO_ASSETS
-    foreign = foreign_worlds(assets.foreign)
-    worlds = _worlds([*((name,) for name in assets.files), *foreign], inputs, manifest, shard)
-    inputs = replace(inputs, folders=tuple(assets.folders))
+    check = _engine(engine, scheduler)
+    worlds, foreign, folders = _worlds(inputs, manifest, shard)
+    inputs = replace(inputs, folders=folders)
     files = [*filter(None, (target.output for target in targets))]
     if results is not None and not is_url(results):
         files.append(Path(results))
@@ -164,10 +158,7 @@ def command(
         refuse_certificate(forms, wanted=options["certificate"])
     config = stated_config(click.get_current_context())
     if since is not None:
-        if any(map(is_remote, worlds)):
-            raise click.UsageError("--changed-since is about files of this machine, not at URLs")
-        shared = [*inputs.rules, *map(str, filter(None, [baseline, config and config.file]))]
-        worlds = _changed(since, worlds, shared, inputs.permitted)
+        worlds = _changed(since, worlds, inputs, [baseline, config.file if config else None])
     if not quiet:
         tell_foreign(set(worlds).intersection(foreign))
     limits = Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"]))
@@ -183,7 +174,7 @@ def command(
         complete=since is None and shard.count == 1,
         results=results,
         resume=resume,
-        engine=_engine(engine),
+        engine=check,
         scheduler=scheduler,
     )
 
@@ -204,9 +195,13 @@ def _targets(form: str | None, outputs: Sequence[str]) -> tuple[tuple[Target, ..
 
 
 def _changed(
-    revision: str, worlds: Sequence[World], shared: Sequence[str], permitted: Permitted
+    revision: str, worlds: Sequence[World], inputs: Inputs, more: Sequence[Path | str | None]
 ) -> Sequence[World]:
-    """Return the assets that changed. shared: what these files say of every asset counts."""
+    """Return the assets that changed. more: files beside the rules, None for one that is not given.
+    What these say of every asset counts."""
+    shared, permitted = [*inputs.rules, *map(str, filter(None, more))], inputs.permitted
+    if any(map(is_remote, worlds)):
+        raise click.UsageError("--changed-since is about files of this machine, not at URLs")
     if new := changed_since(revision, shared, permitted):
         talk(f"satcheck: {new[0]} changed since {revision}: every asset is checked")
         return worlds
@@ -247,13 +242,19 @@ def _refuse(
 
 
 def _worlds(
-    near: Sequence[World], inputs: Inputs, manifest: str | None, shard: Shard
-) -> Sequence[World]:
-    """Those of the shard, each once. near: on this machine. click.UsageError if there is none in
-    any shard."""
+    inputs: Inputs, manifest: str | None, shard: Shard
+) -> tuple[Sequence[World], list[World], tuple[str, ...]]:
+    """Return those of the shard, each once, those of files that no reader knows, and the folders
+    that are named. click.UsageError if there is none in any shard."""
+    if not (inputs.paths or manifest):
+        raise click.UsageError("give a folder or files: `satcheck batch .` checks this folder")
+    local = tuple(name for name in inputs.paths if not is_url(name))
+    assets = asset_names(replace(inputs, paths=local)) if local else NO_ASSETS
+    foreign = foreign_worlds(assets.foreign)
     remote = [name for name in inputs.paths if is_url(name)]
     named: Iterator[World] = chain(
-        near,
+        ((name,) for name in assets.files),
+        foreign,
         ((name,) for url in remote for name in _meant_by(url)),
         read_manifest(manifest) if manifest is not None else (),
     )
@@ -262,7 +263,8 @@ def _worlds(
         raise SatcheckError("no-assets", "it names no scene", file=manifest)
     if first is None:
         raise click.UsageError("no file is named: give a folder or files")
-    return tuple(dict.fromkeys(world for world in chain([first], named) if shard.has(world)))
+    kept = dict.fromkeys(world for world in chain([first], named) if shard.has(world))
+    return tuple(kept), foreign, tuple(assets.folders)
 
 
 def _meant_by(url: str) -> list[str]:
@@ -275,7 +277,9 @@ def _meant_by(url: str) -> list[str]:
     return matching
 
 
-def _engine(name: str) -> Callable[..., Generator[list[Answer]]]:
+def _engine(name: str, scheduler: str | None) -> Callable[..., Generator[list[Answer]]]:
+    if (name == "dask") != (scheduler is not None):
+        raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
     try:
         return cast("Callable[..., Generator[list[Answer]]]", function_at(ENGINES[name]))
     except ImportError:
