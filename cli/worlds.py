@@ -11,7 +11,7 @@ from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, cast
 
 import click
 
@@ -60,11 +60,8 @@ _ELSEWHERE = "name another folder in TMPDIR, or a file for the results, -o resul
 
 def check_worlds(
     worlds: Sequence[World],
-    inputs: Inputs,
-    options: Mapping[str, Any],
-    baseline: Path | None,
+    terms: CheckOptions,
     to: Delivery,
-    config: StatedConfig | None,
     limits: Limits = _LIMITS,
     *,
     complete: bool = True,
@@ -77,18 +74,17 @@ def check_worlds(
     """Check worlds into a file of results, write the documents from it, and return the exit code,
     that of the worst world.
 
-    inputs: how files are read. options: those of `audit.Settings`. config: the options that come
-    from a config file. limits: for each world. complete: these are all worlds; a rule that none of
-    them needs is unused. compares: without a pair nothing passes. results: the file or URL; None: a
-    file for this call, whose results have times. resume: keep its results that hold. scheduler: of
-    another engine than the local one. After Ctrl-C a file for this call has the worlds that are
-    done, and the report says how many are not. Raises KeyboardInterrupt if none is, and where the
-    file stays.
+    terms: of `check_options`. limits: for each world. complete: these are all worlds; a rule that
+    none of them needs is unused. compares: without a pair nothing passes. results: the file or URL;
+    None: a file for this call, whose results have times. resume: keep its results that hold.
+    scheduler: of another engine than the local one. After Ctrl-C a file for this call has the
+    worlds that are done, and the report says how many are not. Raises KeyboardInterrupt if none is,
+    and where the file stays.
     """
-    terms, document = check_options(inputs, options, baseline, config), Document()
+    document = Document()
     how: dict[str, Any] = {"scheduler": scheduler}
     if scheduler is None:
-        jobs = options["jobs"] or os.cpu_count() or 1
+        jobs = cast("int", terms.settings["jobs"]) or os.cpu_count() or 1
         threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
         how = {"slots": jobs, "wanted": Wanted(kept=results is not None, threads=threads)}
     check = partial(engine, options=terms, limits=limits, **how)
@@ -113,7 +109,7 @@ def check_worlds(
             return code
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
-        deliver = partial(_deliver, document, Path(path), issues, to, inputs.allow_outside)
+        deliver = partial(_deliver, document, Path(path), issues, to, terms.allow_outside)
         compares, is_broken_off = compares and not left, bool(left)
         try:
             seen = deliver(compares, undrawn=is_broken_off)

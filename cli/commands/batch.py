@@ -26,11 +26,7 @@ from satcheck.cli.formats.registry import REPORTS, Format
 from satcheck.cli.inputs import Inputs, refuse_early, typed
 from satcheck.cli.output import talk
 from satcheck.cli.rendering import Delivery, refuse_certificate
-from satcheck.cli.worlds import (
-    asset_names,
-    check_worlds,
-    tell_foreign,
-)
+from satcheck.cli.worlds import asset_names, check_options, check_worlds, tell_foreign
 from satcheck.core.errors import SatcheckError
 from satcheck.core.plugins import function_at
 from satcheck.scene.asset_files import NO_ASSETS
@@ -162,14 +158,10 @@ def command(
     if not quiet:
         tell_foreign(set(worlds).intersection(foreign))
     limits = Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"]))
-    delivery = Delivery(targets, quiet, exit_zero, options["timings"], top)
     return check_worlds(
         worlds,
-        inputs,
-        options,
-        baseline,
-        delivery,
-        config,
+        check_options(inputs, options, baseline, config),
+        Delivery(targets, quiet, exit_zero, options["timings"], top),
         limits,
         complete=since is None and shard.count == 1,
         results=results,

@@ -225,10 +225,11 @@ def command(
         config = stated_config(ctx)
     worlds = worlds_of(inputs)
     if len(worlds) > 1:
-        from satcheck.cli.worlds import check_worlds
+        from satcheck.cli.worlds import check_options, check_worlds
 
         refuse_of_worlds(to.forms, inputs, explain=explain, **options)
-        return check_worlds(worlds, inputs, options, baseline, to, config, compares=True)
+        terms = check_options(inputs, options, baseline, config)
+        return check_worlds(worlds, terms, to, compares=True)
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed="json" in to.forms)
