@@ -17,6 +17,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import click
+
 from satcheck.cli.click_classes import DEFAULT_COMMAND
 from satcheck.cli.commands import COMMANDS, command_named, is_command
 from satcheck.cli.commands.check import command as check
@@ -28,8 +30,6 @@ from satcheck.scene.opening import exists, is_file, is_folder
 from satcheck.scene.units import MICROMETRES
 
 if TYPE_CHECKING:
-    import click
-
     from satcheck.scene import Scene
     from satcheck.scene.bodies import Body
 
@@ -222,16 +222,12 @@ def about_one_body(path: str, components: int) -> Iterator[Advice]:
         yield Advice("to check its connected pieces", _line(words))
 
 
-def check_of(file: str, ctx: click.Context) -> str:
-    """Return a plain check of a file, with the options of this call that change its answer."""
-    return call_of(DEFAULT_COMMAND, [file], ctx)
-
-
-def call_of(name: str, paths: Sequence[str], ctx: click.Context, more: Sequence[str] = ()) -> str:
+def call_of(name: str, paths: Sequence[str], more: Sequence[str] = ()) -> str:
     """Return a call of another command on these paths, with the options of this call that it has
     and that change the answer. more: words at the end."""
-    command = check if name == DEFAULT_COMMAND else command_named(name)
-    known = {option.name for option in command.params} - _DELIVERY if command else set()
+    ctx = click.get_current_context()
+    command = check if name == DEFAULT_COMMAND else command_named(name) or check
+    known = {option.name for option in command.params} - _DELIVERY
     values, _, order = ctx.command.make_parser(ctx).parse_args(sys.argv[1:])
     kept: list[str] = []
     for option in dict.fromkeys(order):

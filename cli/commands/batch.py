@@ -150,19 +150,17 @@ def command(
     if results is None:
         if resume:
             raise click.UsageError("--resume: name a file for the results, -o results.jsonl")
-        forms = {target.form for target in targets}
-        refuse_certificate(forms, wanted=options["certificate"])
+        refuse_certificate({target.form for target in targets}, wanted=options["certificate"])
     config = stated_config(click.get_current_context())
     if since is not None:
         worlds = _changed(since, worlds, inputs, [baseline, config.file if config else None])
     if not quiet:
         tell_foreign(set(worlds).intersection(foreign))
-    limits = Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"]))
     return check_worlds(
         worlds,
         check_options(inputs, options, baseline, config),
         Delivery(targets, quiet, exit_zero, options["timings"], top),
-        limits,
+        Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"])),
         complete=since is None and shard.count == 1,
         results=results,
         resume=resume,

@@ -111,8 +111,8 @@ def command(
             talk(f"satcheck: {issue_line(issue)}")
     talk(remark(result, pairs, never=never))
     if form == "toml" and pairs and output is not None:
-        name, ctx = "batch" if of_folders else DEFAULT_COMMAND, click.get_current_context()
-        line = call_of(name, inputs.paths, ctx, ["--rules", str(output)])
+        name = "batch" if of_folders else DEFAULT_COMMAND
+        line = call_of(name, inputs.paths, ["--rules", str(output)])
         talk(f"Next: {line} checks with these rules.")
     if form == "srdf" and pairs:
         talk("An SRDF has one line for two links: it covers all pairs of their bodies.")

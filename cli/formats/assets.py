@@ -175,7 +175,7 @@ def _steps_of_folders(seen: Overview) -> list[str]:
     if seen.named.get("fail") and not (ctx.params["rules"] or ctx.params["baseline"]):
         from satcheck.cli.slips import call_of
 
-        line = call_of("suggest", paths, ctx, ["-o", "rules.toml"])
+        line = call_of("suggest", paths, ["-o", "rules.toml"])
         steps.append(f"Next: {line} proposes rules for overlaps that are meant.")
     for file in seen.named.get("error", [])[:1]:
         name = shlex.quote(escape(PurePath(file).name))
@@ -188,9 +188,10 @@ def _check_of(file: str) -> str:
     ctx = click.get_current_context(silent=True)
     if ctx is None or ctx.info_name != "batch":
         return f"satcheck {shlex.quote(file)}"
-    from satcheck.cli.slips import check_of
+    from satcheck.cli.click_classes import DEFAULT_COMMAND
+    from satcheck.cli.slips import call_of
 
-    return check_of(file, ctx)
+    return call_of(DEFAULT_COMMAND, [file])
 
 
 def _named(seen: Overview, verdict: AssetVerdict) -> str:
