@@ -19,6 +19,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.messages import with_messages
 from satcheck.audit.settings import Settings
+from satcheck.audit.words import number, with_unit
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import (
     SCHEMA,
@@ -35,7 +36,8 @@ from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
 from satcheck.report.values import Interval, Relation
 from satcheck.report.verdict import fails, summarise
-from satcheck.scene.opening import Signature, followed, note, read_whole, signature
+from satcheck.scene.opening import Signature, exists, followed, note, read_whole, signature
+from satcheck.scene.units import unit_of
 
 # From the mildest to the gravest.
 _GRAVITY: dict[KnownRelation, int] = {
@@ -249,8 +251,23 @@ def _with_state(
         return finding
     pair = frozenset((finding.a, finding.b))
     before = next((known[asset, pair] for asset in assets if (asset, pair) in known), None)
-    state: BaselineState = "new" if before is None else _compared(before, finding, report)
-    return replace(finding, baseline_state=state)
+    if before is None:
+        return replace(finding, baseline_state="new")
+    state = _compared(before, finding, report)
+    reason = _known(before, finding.relation) if state == "worse" else finding.reason
+    return replace(finding, baseline_state=state, reason=reason)
+
+
+def _known(before: KnownFinding, now: Relation) -> str:
+    """Return `the baseline has depth 1 mm, thickness 0.5 mm`, and the relation if it is another."""
+    said: list[str] = [before.relation] if before.relation != now else []
+    unit = unit_of(before.units)
+    for name in _FIGURES:
+        value, power = before.figure(name), "^3" if name == "volume" else ""
+        if value is not None:
+            figure = with_unit(number(value), unit and unit + power)
+            said.append(f"{name.replace('_', ' ')} {figure}")
+    return f"the baseline has {', '.join(said)}"
 
 
 def _compared(before: KnownFinding, now: Finding, report: Report) -> BaselineState:
@@ -325,6 +342,9 @@ class _Head(msgspec.Struct, frozen=True):
 
 def read_baseline(path: Path) -> Baseline:
     """Raises SatcheckError: `bad-baseline`, or a code about the file."""
+    if not exists(path):
+        reason = "no such file: `satcheck baseline write` makes one"
+        raise SatcheckError("file-not-found", reason, file=str(path))
     try:
         text = read_whole(str(path), path)
         schema = msgspec.json.decode(text, type=_Head).schema

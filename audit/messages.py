@@ -248,7 +248,7 @@ def finding_message(finding: Finding, report: Report) -> str:
         if finding.baseline_state == "accepted":
             unproven = " undecided" if finding.undecided else " without figures"
         text += f" [baseline: {finding.baseline_state}{unproven}]"
-    if finding.reason is not None:
+    if finding.reason is not None and finding.reason not in text:
         text += f" ({finding.reason})"
     return f"{text}."
 
@@ -281,6 +281,8 @@ def clause(finding: Finding, report: Report, *, brief: bool = False) -> str:
         where = f" ({joint_values(joints)})" if joints and not brief else ""
         return f"{finding.a} {in_motion(finding, unit, f' {finding.b}')}{where}"
     figures = limits(finding, report)
+    if finding.baseline_state == "worse" and finding.reason:
+        figures.append(finding.reason)
     if finding.at_rest in OVERLAPS:
         figures = [*_figures(finding, unit), *figures]
         said = _overlap(finding, report)

@@ -3,7 +3,6 @@ word is a path unless it names a command."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -21,12 +20,10 @@ HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_conten
 MANY = 19
 OTHER = "Options of every command"
 _ALL, _BARE = "satcheck.help-all", "satcheck.bare"
-# The range of a number, as click writes it: ` [x>=1]`, `; 0<x<1`.
-_RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\[\]]*x[<>][^\]]*(?=\])")
 # The names of the parameters, in the order of the help.
 SECTIONS = {
     "What to check": "bodies pairs manifest shard exclude since split merge planar units "
-    "allow_open package packages geometry read pose state "
+    "allow_open package packages geometry reading pose state "
     "joint_path sample seed asset root allow_outside",
     "What to compute": "depth contacts components volume never cross_check certificate",
     "Tolerances and rules": "max_thickness max_depth clearance tolerance surface_tolerance "
@@ -61,7 +58,7 @@ class Command(click.Command):
         for heading, chosen in groups.items():
             with formatter.section(heading):
                 records = (option.get_help_record(ctx) for option in chosen)
-                formatter.write_dl([brief(record) for record in records if record is not None])
+                formatter.write_dl([record for record in records if record is not None])
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         return _written(super().get_help_option(ctx))
@@ -102,12 +99,6 @@ def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
         Document().write(f"{ctx.get_help()}\n")
         # Without a word nothing was checked: that is no success.
         ctx.exit(exit_codes.ERROR if _BARE in ctx.meta else exit_codes.CLEAN)
-
-
-def brief(record: tuple[str, str]) -> tuple[str, str]:
-    """Without the range of a number: a message states it where it matters."""
-    option, text = record
-    return option, _RANGE.sub("", text)
 
 
 def sections(options: Sequence[click.Option]) -> dict[str, list[click.Option]]:

@@ -197,41 +197,38 @@ def options_of_commands() -> dict[str, click.Option]:
     return options
 
 
-def nearest_config(folder: Path | None = None) -> ConfigFile | None:
-    """Return the nearest satcheck.toml or pyproject.toml with [tool.satcheck], from this folder
-    upward; None: from the current one. In one folder satcheck.toml comes first. Raises
-    SatcheckError: `bad-config`."""
+def nearest_config() -> ConfigFile | None:
+    """Return the nearest satcheck.toml or pyproject.toml with [tool.satcheck], from the current
+    folder upward. In one folder satcheck.toml comes first. Raises SatcheckError: `bad-config`."""
     try:
-        folder = folder or Path.cwd()
+        folder = Path.cwd()
     except OSError:  # the folder is gone, and what it was in is unknown
         return None
     for path in (place / name for place in (folder, *folder.parents) for name in (CONFIG, PROJECT)):
         # A link that leads nowhere counts: its options are not passed over, reading it fails.
         if path.is_file() or path.is_symlink():
-            file = read_config(Path(os.path.relpath(path, folder)), found=True, folder=folder)
+            file = read_config(Path(os.path.relpath(path)), found=True)
             if file is not None:
                 return file
     return None
 
 
-def read_config(path: Path, *, found: bool = False, folder: Path = Path()) -> ConfigFile | None:
-    """Return the file. None: it was found, and has no table for satcheck. folder: in which the path
-    begins."""
+def read_config(path: Path, *, found: bool = False) -> ConfigFile | None:
+    """Return the file. None: it was found, and has no table for satcheck."""
     from satcheck.scene.opening import read_whole
-    from satcheck.scene.words import why_unreadable
 
     keys = ("tool", "satcheck") if path.name == PROJECT else ()
     try:
-        data = read_whole(str(path), folder / path)
+        data = read_whole(str(path), path)
         if found and keys and b"satcheck" not in data:
             return None  # without a parser
-        import tomllib
+        from satcheck.scene.scene_file.text import read_toml
 
-        table: Any = tomllib.loads(data.decode())
+        table: Any = read_toml(path.as_posix(), data.decode())
     except SatcheckError as error:
         raise _bad_config(str(error)) from None
-    except (ValueError, RecursionError) as error:
-        raise _bad_config(f"{path}: not readable TOML: {why_unreadable(error)}") from None
+    except UnicodeDecodeError:
+        raise _bad_config(f"{path}: not UTF-8") from None
     for key in keys:
         table = table.get(key) if isinstance(table, dict) else None
     if isinstance(table, dict):

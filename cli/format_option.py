@@ -77,7 +77,7 @@ def targets_of(
     """Return the documents that a call asks for: one for each -o, else one on standard output. The
     form is that of standard output, or of the only file. Raises as `form_of`."""
     paths = outputs or (STANDARD_OUTPUT,)
-    if outputs and _is_overridden("form", "outputs"):
+    if outputs and _is_overridden():
         form = None
     is_shown = STANDARD_OUTPUT in paths
     if form is not None and len(paths) > 1 and not is_shown:
@@ -86,28 +86,19 @@ def targets_of(
     for path in paths:
         output = None if path == STANDARD_OUTPUT else path
         own = form if output is None or not is_shown else None
-        targets.append(Target(_form(own, output, known, kinds), output))
+        targets.append(Target(form_of(own, output, known, kinds), output))
     return tuple(targets)
 
 
 def form_of(
-    form: str | None, output: Path | None, known: Mapping[str, Format] | None = None
-) -> str:
-    """Return the format of a command that writes these: as given, else as the name of the file
-    says. known: None: JSON and a table. Raises click.UsageError for a name that promises what it
-    does not write."""
-    if output is not None and _is_overridden("form", "output"):
-        form = None
-    return _form(form, output, known or formats(PLAIN))
-
-
-def _form(
     form: str | None,
     output: Path | None,
     known: Mapping[str, Format],
     others: tuple[Kind, ...] = (),
 ) -> str:
-    """others: the kinds of formats that other packages may register."""
+    """Return the format of a command that writes these: as given, else as the name of the file
+    says. others: the kinds of formats that other packages may register. Raises click.UsageError for
+    a name that promises what the command does not write."""
     if form is not None and form not in known:
         raise click.UsageError(f"--format {form}: this command writes {', '.join(known)}")
     ending = "" if output is None else output.suffix.lower()
@@ -126,14 +117,13 @@ def unknown_ending(known: Iterable[Format]) -> str:
     return f"this command writes {', '.join(endings)} or {last}: end the name so, or give --format"
 
 
-def _is_overridden(name: str, typed: str) -> bool:
-    """Return whether an option comes from a config file, and another one that decides it was
-    typed."""
+def _is_overridden() -> bool:
+    """Return whether --format comes from a config file, and -o was typed."""
     ctx = click.get_current_context(silent=True)
     return (
         ctx is not None
-        and ctx.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
-        and ctx.get_parameter_source(typed) is ParameterSource.COMMANDLINE
+        and ctx.get_parameter_source("form") is ParameterSource.DEFAULT_MAP
+        and ctx.get_parameter_source("outputs") is ParameterSource.COMMANDLINE
     )
 
 
@@ -160,7 +150,7 @@ def plain_call(
     """Return what a command begins with that writes JSON and a table: its inputs, which it takes
     from the options, the format, and standard output. Raises click.UsageError for what can be seen
     to fail."""
-    inputs, form = Inputs.taken_from(options), form_of(form, output)
+    inputs, form = Inputs.taken_from(options), form_of(form, output, formats(PLAIN))
     refuse_early(inputs, output)
     return inputs, form, Document()
 

@@ -10,22 +10,18 @@ from typing import Any, Self
 
 import click
 from click.core import ParameterSource
-from msgspec import Struct
 
 from satcheck.audit.words import counted
-from satcheck.cli.option import default_limits, origin_of
+from satcheck.cli.option import origin_of
 from satcheck.cli.output import cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, Selector
-from satcheck.scene.files.nodes import Split
-from satcheck.scene.files.readers import GeometryKind, ReadLimits, ReadOptions, kind_of
+from satcheck.scene.files.readers import ReadLimits, ReadOptions, kind_of
 from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.opening import Permitted, is_folder
-from satcheck.scene.rules import GROUP
-from satcheck.scene.words import listed, meant
+from satcheck.scene.opening import Permitted, exists, is_folder
 
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(
@@ -33,73 +29,44 @@ _OF_NO_BODY = frozenset(
 ) | {"no-surface", "unknown-element", "unread"}
 
 
-class Inputs(Struct, frozen=True):
+class Inputs(LoadOptions, frozen=True, kw_only=True):
     """The values of options, each under the name of its option. folders: among the paths, or meant
     by them."""
 
     paths: tuple[str, ...]
-    packages: Mapping[str, Path] | None = None
-    geometry: GeometryKind | None = None
-    split: Split | None = None
-    units: str | None = None
-    folders: tuple[str, ...] = ()
     exclude: tuple[str, ...] = ()
-    allow_outside: bool = False
     pose: tuple[str, ...] = ()
     state: tuple[str, ...] = ()
     sample: int | None = None
     seed: int | None = None
-    rules: tuple[Path, ...] = ()
-    between: tuple[tuple[str, str], ...] = ()
     joint_path: str | None = None
-    read: ReadOptions = {}
     merge: bool = False
     limit: Mapping[str, float] = {}
 
     @classmethod
     def taken_from(cls, options: dict[str, Any]) -> Self:
         """Removes its own options from `options` and leaves the others."""
-        names = [name for name in cls.__struct_fields__ if name in options]
-        return cls(**{name: options.pop(name) for name in names})
+        values = {name: options.pop(name) for name in cls.__struct_fields__ if name in options}
+        if limit := values.get("limit"):
+            values["seconds_per_file"] = limit["seconds"]
+            values["megabytes_per_file"] = limit["megabytes"]
+        return cls(**values)
 
     @property
     def limits(self) -> dict[str, float | int]:
         """For reading a file, as a report states them."""
-        seconds, megabytes = self._of_file
-        return {"seconds_per_file": seconds, "megabytes_per_file": megabytes}
-
-    @property
-    def _of_file(self) -> tuple[float, int]:
-        limit = default_limits("seconds", "megabytes") | dict(self.limit)
-        return float(limit["seconds"]), int(limit["megabytes"])
-
-    @property
-    def load_options(self) -> LoadOptions:
-        seconds, megabytes = self._of_file
-        return LoadOptions(
-            split=self.split,
-            packages={name: str(folder) for name, folder in (self.packages or {}).items()},
-            geometry=self.geometry,
-            folders=self.folders,
-            allow_outside=self.allow_outside,
-            units=self.units,
-            rules=tuple(map(str, self.rules)),
-            between=self.between,
-            reading=self.read,
-            seconds_per_file=seconds,
-            megabytes_per_file=megabytes,
-        )
+        return {name: getattr(self, name) for name in ("seconds_per_file", "megabytes_per_file")}
 
     def mesh_files(self, reading: ReadOptions) -> MeshFiles:
         """To read the mesh files of a scene once more, with the options that it has read them
         with."""
-        seconds, _ = self._of_file
-        return MeshFiles(ReadLimits(seconds, self.permitted, hashed=False, options=reading))
+        limits = ReadLimits(self.seconds_per_file, self.permitted, hashed=False, options=reading)
+        return MeshFiles(limits)
 
     @property
     def permitted(self) -> Permitted:
         """Return the limit of files that are read before or after a check."""
-        return Permitted(anywhere=True, megabytes=self._of_file[1])
+        return Permitted(anywhere=True, megabytes=self.megabytes_per_file)
 
     @property
     def has_poses(self) -> bool:
@@ -125,7 +92,7 @@ def refuse_early(
         raise cannot_write(str(output), "its folder does not exist")
     known = () if baseline is None else (str(baseline),)
     swept = () if inputs.joint_path is None else (inputs.joint_path,)
-    read = (*inputs.paths, *inputs.pose, *swept, *map(str, inputs.rules), *known)
+    read = (*inputs.paths, *inputs.pose, *swept, *inputs.rules, *known)
     if any(is_same_file(output, path) for path in read):
         raise click.UsageError(f"{option} {output} would overwrite an input")
 
@@ -158,7 +125,8 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
     keep_freed_memory()
     with Bar("files", f"reading {counted(len(paths), 'file')}"):
         try:
-            scene = inputs.load_options.load(paths, hashed=hashed, must_count=typed(inputs.read))
+            must_count = typed(inputs.reading)
+            scene = inputs.load(paths, hashed=hashed, must_count=must_count)
         except SatcheckError as error:
             raise _with_view(error, paths) from None
     _refuse_unknown(inputs.between, scene)
@@ -197,14 +165,8 @@ def _refuse_unknown(between: Sequence[tuple[str, str]], scene: Scene) -> None:
     """Refuse a name of --between that selects nothing, unless an input cannot be read."""
     for name in () if scene.unreadable else chain.from_iterable(between):
         selector = Selector(name)
-        if selector.select(scene.bodies):
-            continue
-        names = [body.id for body in scene.bodies]
-        if selector.of_groups:
-            names = sorted({f"{GROUP}{each}" for body in scene.bodies for each in body.groups})
-        known = meant(name, names) or f": there are {listed(names) or 'none'}"
-        what = "group" if selector.of_groups else "body"
-        raise click.UsageError(f"{origin_of('between')}: no {what} is {name}{known}")
+        if not selector.select(scene.bodies):
+            raise click.UsageError(f"{origin_of('between')}: {selector.unmatched(scene.bodies)}")
 
 
 def _is_stated(paths: Sequence[str], scene: Scene) -> bool:
@@ -216,7 +178,7 @@ def _is_stated(paths: Sequence[str], scene: Scene) -> bool:
 def typed(read: ReadOptions) -> ReadOptions:
     """Return the options of readers if the call gives them, and not a config file, which is about
     other files, too."""
-    return read if _is_typed("read") else {}
+    return read if _is_typed("reading") else {}
 
 
 def _is_typed(name: str) -> bool:
@@ -275,7 +237,7 @@ def _one_body(inputs: Inputs, scene: Scene) -> click.ClickException:
 
 
 def _refuse_first_word(word: str) -> None:
-    if word not in ("check", "help", "each", "report"):
+    if exists(word):
         return
     from satcheck.cli.slips import about_first_word
 

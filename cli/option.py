@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, NoReturn, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
@@ -60,6 +60,37 @@ def origin_of(name: str) -> str:
 
     ctx = click.get_current_context(silent=True)
     return (ctx and origin(ctx, name)) or f"--{name.replace('_', '-')}"
+
+
+class _Range:
+    """A range of numbers, and what it says of others."""
+
+    min: Any
+    max: Any
+    min_open: bool
+    max_open: bool
+
+    def fail(
+        self, message: str, param: click.Parameter | None = None, ctx: click.Context | None = None
+    ) -> NoReturn:
+        what = "a whole number" if isinstance(self, Whole) else "a number"
+        ends = [f"{'above' if self.min_open else 'of at least'} {self.min}"]
+        if self.max is not None:
+            ends.append(f"{'below' if self.max_open else 'at most'} {self.max}")
+        message = f"{what} {' and '.join(ends)} is expected"
+        raise click.BadParameter(message, ctx=ctx, param=param)
+
+    def _describe_range(self) -> str:
+        """Return nothing for the help: the message states it where it matters."""
+        return ""
+
+
+class Whole(_Range, click.IntRange):
+    """A whole number of at least `min`."""
+
+
+class Number(_Range, click.FloatRange):
+    """A number."""
 
 
 def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[CompletionItem]:
@@ -151,7 +182,7 @@ class LimitsType(click.ParamType[dict[str, float]]):
             if name not in self.names:
                 self.fail(f"{each!r} should be NAME=NUMBER; names: {', '.join(self.names)}")
             least = LIMITS[name].least
-            kind = click.IntRange(least) if least else click.FloatRange(0, min_open=True)
+            kind = Whole(least) if least else Number(0, min_open=True)
             try:
                 stated[name] = kind.convert(number, None, None)
             except click.BadParameter as error:
@@ -199,7 +230,7 @@ def outputs(text: str) -> Callable[[_Command], _Command]:
 
 top = click.option(
     "--top",
-    type=click.IntRange(min=1),
+    type=Whole(min=1),
     metavar="N",
     help="List only the N worst in a table. The summary and the exit code count all.",
 )
@@ -252,7 +283,7 @@ exclude = click.option(
     metavar="PATTERN",
     help="Files of folders to leave out, or folders, by name or path. Repeatable.",
 )
-jobs = setting("jobs", "-j", "--jobs", type=click.IntRange(min=0), metavar="N")
+jobs = setting("jobs", "-j", "--jobs", type=Whole(min=0), metavar="N")
 
 
 def _set_colour(ctx: click.Context, _: click.Parameter, choice: str) -> None:

@@ -70,6 +70,7 @@ class Document:
     def __init__(self) -> None:
         self._stream: TextIO | None = None
         self.page = PLAIN_PAGE
+        self.is_begun = False
         if sys.stdout is None:
             return
         self.page = _page(sys.stdout)
@@ -104,6 +105,7 @@ class Document:
             return
         if utf8 and hasattr(self._stream, "reconfigure"):
             self._stream.reconfigure(encoding="utf-8", errors=_UNDECODABLE)
+        self.is_begun = True
         try:
             if isinstance(text, bytes):
                 self._stream.buffer.write(text)

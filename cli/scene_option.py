@@ -5,16 +5,19 @@ Help lists the options of a group in the order of the group.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import get_args
+from typing import Any, TypeVar, get_args
 
 import click
 
-from satcheck.cli.option import limits, together
+from satcheck.cli.option import Whole, limits, together
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.files.readers import GEOMETRY, GeometryKind, OptionValue, option_named, options
 from satcheck.scene.opening import is_folder
 from satcheck.scene.units import MICROMETRES
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
 def _spelled_options() -> str:
@@ -52,13 +55,19 @@ outside = click.option(
 )
 read = click.option(
     "--read",
+    "reading",
     multiple=True,
     metavar="NAME=VALUE",
     callback=_read,
     help=f"An option of the readers of some formats{_spelled_options()}. Repeatable.",
 )
-# About what reading a file may do.
-reading = together(outside, limits(), read)
+
+
+def reading(*more: str) -> Callable[[_Command], _Command]:
+    """Return the options about what reading a file may do. more: names of further limits."""
+    return together(outside, limits(*more), read)
+
+
 split = click.option(
     "--split",
     type=click.Choice(SPLITS),
@@ -80,8 +89,9 @@ merge = click.option(
 rules = click.option(
     "--rules",
     multiple=True,
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=click.Path(dir_okay=False),
     metavar="FILE",
+    callback=lambda _, __, files: tuple(str(Path(file)) for file in files),
     help="Rules about all bodies, after those of scenes: what may overlap, and by how much. "
     "Repeatable.",
 )
@@ -96,15 +106,15 @@ between = click.option(
 )
 
 
-def _packages(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict[str, Path]:
-    packages: dict[str, Path] = {}
+def _packages(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict[str, str]:
+    packages: dict[str, str] = {}
     for text in texts:
         name, _equals, folder = text.partition("=")
         if not name or not folder:
             raise click.BadParameter(f"{text!r} should be NAME=DIR")
         if not is_folder(folder):
             raise click.BadParameter(f"{folder!r} is no folder")
-        packages[name] = Path(folder)
+        packages[name] = str(Path(folder))
     return packages
 
 
@@ -124,14 +134,14 @@ geometry = click.option(
     metavar="KIND",
     help="collision (default: robots) or visual (default: USD).",
 )
-# That pose robots.
-poses = together(
+# That pose robots once.
+one_pose = together(
     click.option(
         "--pose",
         multiple=True,
         metavar="FILE",
         help='Values of joints (radians, metres), {"joint": value}: a JSON file or the text. '
-        "Several are checked one by one.",
+        "A check takes several.",
     ),
     click.option(
         "--state",
@@ -139,15 +149,19 @@ poses = together(
         metavar="NAME",
         help="A state of the SRDF; --pose overrides it. Repeatable.",
     ),
+)
+# That pose robots.
+poses = together(
+    one_pose,
     click.option(
         "--sample",
-        type=click.IntRange(min=1),
+        type=Whole(min=1),
         metavar="N",
         help="Check N random poses; joints in --pose and --state stay.",
     ),
     click.option(
         "--seed",
-        type=click.IntRange(min=0),
+        type=Whole(min=0),
         metavar="N",
         help="The seed of the random poses.  [default: 0]",
     ),
@@ -162,25 +176,7 @@ joint_path = click.option(
     metavar="FILE",
     help="Sweep robots through these poses (JSON or CSV).",
 )
-# That pose robots once.
-one_pose = together(
-    click.option(
-        "--pose",
-        multiple=True,
-        metavar="FILE",
-        help="Values of the joints of a robot, for one pose, as in a check.",
-    ),
-    click.option(
-        "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
-    ),
-)
-# Of commands that check one scene, with robots in one pose.
-one_scene = together(
-    split,
-    merge,
-    package,
-    geometry,
-    one_pose,
-    units,
-    reading,
-)
+# Of commands that read one scene.
+scene = together(split, merge, units, reading(), package, geometry)
+# The same, with robots in one pose.
+one_scene = together(scene, one_pose)

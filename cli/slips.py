@@ -17,7 +17,11 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from satcheck.cli.commands import COMMANDS, is_command
+import click
+
+from satcheck.cli.click_classes import DEFAULT_COMMAND
+from satcheck.cli.commands import COMMANDS, command_named, is_command
+from satcheck.cli.commands.check import command as check
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.files.readers import mesh_reader, options
@@ -26,8 +30,6 @@ from satcheck.scene.opening import exists, is_file, is_folder
 from satcheck.scene.units import MICROMETRES
 
 if TYPE_CHECKING:
-    import click
-
     from satcheck.scene import Scene
     from satcheck.scene.bodies import Body
 
@@ -35,15 +37,12 @@ if TYPE_CHECKING:
 FEWEST_ASSETS = 4
 # More files than this make no line that anybody copies.
 MOST_FILES = 8
+# An option of more commands is none by which a command is meant.
+MOST_OWNERS = 2
 _PATTERN = frozenset("*?[")
 _STORED = re.compile(rb'\s*{\s*"schema": ?"satcheck\.(report|assets|samples|result)/')
-# Options about the document, not about the answer, and about many assets.
-_DELIVERY = frozenset(
-    (
-        *("form", "outputs", "quiet", "top", "color", "exit_zero", "limit"),
-        *("resume", "shard", "manifest", "since", "exclude"),
-    )
-)
+# Options about the document, not about the answer. Limits differ by command.
+_DELIVERY = frozenset(("form", "output", "outputs", "quiet", "top", "color", "exit_zero", "limit"))
 # Options of other programs, and what they are here. The names of our formats are among them, and
 # those that stand before the name of a file to write.
 _WRITERS = ("picture", "image", "save", "report")
@@ -85,7 +84,8 @@ def about_first_word(word: str) -> Advice | None:
     rest = [each for each in sys.argv[1:] if each != word]
     if exists(word) or word not in sys.argv[1:]:
         return None
-    named = word if word in _WORDS else _close(word, [*COMMANDS, "check"], 0.6)
+    is_word = word in _WORDS or (_is_check() and "." not in word and _nearest(word) is None)
+    named = _close(word, [*COMMANDS, *_WORDS], 0.6) if is_word else None
     if named is None:
         return None
     meant = _WORDS.get(named, named)
@@ -99,8 +99,7 @@ def about_first_word(word: str) -> Advice | None:
 def about_option(error: click.NoSuchOption) -> Advice | None:
     """Return what to type in place of an option that the command does not have."""
     words, wrong = sys.argv[1:], error.option_name
-    params = error.ctx.command.params if error.ctx else ()
-    known = [name for each in params for name in (*each.opts, *each.secondary_opts)]
+    known = _names(error.ctx.command) if error.ctx else []
     place = next((k for k, word in enumerate(words) if word.partition("=")[0] == wrong), None)
     if place is None:
         return None
@@ -115,9 +114,27 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
         is_switch = option[0].type is bool and not equals
         after = after if equals or is_switch else after[1:]
         right = ["--read", f"{name}={'true' if is_switch else following}"]
+    elif advice := _of_others(wrong, words):
+        return advice
     elif right := _meant(name, following, known):
         right += [value] if equals else []
     return Advice("did you mean", _line([*before, *right, *after])) if right else None
+
+
+def _of_others(option: str, words: Sequence[str]) -> Advice | None:
+    """Return the command whose option this is, if it is one of a few. words: of this call."""
+    commands = {name: command_named(name) for name in COMMANDS}
+    owners = [name for name, command in commands.items() if command and option in _names(command)]
+    if not 1 <= len(owners) <= MOST_OWNERS or option in _names(check):
+        return None
+    named = " and ".join(f"satcheck {name}" for name in owners)
+    rest = words[1:] if is_command(words[0]) else words
+    return Advice(f"{option} is an option of {named}", _line([owners[0], *rest]))
+
+
+def _names(command: click.Command) -> list[str]:
+    """Return how its options are spelled."""
+    return [name for each in command.params for name in (*each.opts, *each.secondary_opts)]
 
 
 def _meant(wrong: str, following: str, known: Sequence[str]) -> list[str]:
@@ -136,13 +153,8 @@ def _meant(wrong: str, following: str, known: Sequence[str]) -> list[str]:
 
 
 def about_paths(paths: Sequence[str]) -> Iterator[Advice]:
-    """Yield what to type in place of a misspelt command, folders, patterns, and files that do not
-    exist or are given twice."""
-    first = paths[0]
-    is_word = _is_check() and "." not in first and not exists(first) and _nearest(first) is None
-    if is_word and (command := about_first_word(first)):
-        yield command
-        return
+    """Yield what to type in place of folders, patterns, and files that do not exist or are given
+    twice."""
     bad = [path for path in paths if not is_file(path)]
     words = sys.argv[1:]
     for k, (value, unit) in enumerate(pairwise(words)):
@@ -210,15 +222,20 @@ def about_one_body(path: str, components: int) -> Iterator[Advice]:
         yield Advice("to check its connected pieces", _line(words))
 
 
-def check_of(file: str, ctx: click.Context) -> str:
-    """Return a plain check of a file, with the options of this call that change its answer."""
+def call_of(name: str, paths: Sequence[str], more: Sequence[str] = ()) -> str:
+    """Return a call of another command on these paths, with the options of this call that it has
+    and that change the answer. more: words at the end."""
+    ctx = click.get_current_context()
+    command = check if name == DEFAULT_COMMAND else command_named(name) or check
+    known = {option.name for option in command.params} - _DELIVERY
     values, _, order = ctx.command.make_parser(ctx).parse_args(sys.argv[1:])
     kept: list[str] = []
     for option in dict.fromkeys(order):
-        if option.param_type_name == "option" and option.name not in _DELIVERY:
+        if option.param_type_name == "option" and option.name in known:
             value = values[option.name]
-            kept += _as_given(option, _counting(value, file) if option.name == "read" else value)
-    return _line([file, *kept])
+            is_of_file = option.name == "reading" and len(paths) == 1
+            kept += _as_given(option, _counting(value, paths[0]) if is_of_file else value)
+    return _line([*([] if name == DEFAULT_COMMAND else [name]), *paths, *kept, *more])
 
 
 def _counting(texts: Sequence[str], file: str) -> list[str]:
@@ -235,7 +252,8 @@ def _as_given(option: click.Parameter, value: Any) -> list[str]:
         names = option.opts if value else option.secondary_opts
         return names[-1:]
     values = value if option.multiple else [value]
-    return [word for each in values for word in (option.opts[-1], str(each))]
+    words = [each if isinstance(each, tuple) else (each,) for each in values]
+    return [word for each in words for word in (option.opts[-1], *map(str, each))]
 
 
 def _about_folders(folders: Sequence[str], given: Sequence[str]) -> Iterator[Advice]:
@@ -245,7 +263,7 @@ def _about_folders(folders: Sequence[str], given: Sequence[str]) -> Iterator[Adv
         words = (_one_folder(given) if is_expanded else []) or sys.argv[1:]
         where = folders[0] if len(folders) == 1 else "the folders"
         yield Advice(f"to check each file in {where} by itself", _line(["batch", *words]))
-    files = {folder: [_all(Path(folder))] for folder in folders if _meshes(Path(folder))}
+    files = {folder: _all(Path(folder)) for folder in folders if _meshes(Path(folder))}
     if folders and len(files) == len(folders) and (len(files) == 1 or not _is_check()):
         yield Advice("to check the files in it against each other", _replacing(files))
 
@@ -261,7 +279,7 @@ def _about_pattern(path: str) -> Iterator[Advice]:
         yield Advice("to check each of them by itself", _line(["batch", *sys.argv[1:]]))
     if not matches and _meshes(Path(path).parent):
         purpose = f"no file matches {path}. To check the files there"
-        yield Advice(purpose, _replacing({path: [_all(Path(path).parent)]}))
+        yield Advice(purpose, _replacing({path: _all(Path(path).parent)}))
 
 
 def _matches(pattern: str) -> list[str]:
@@ -271,11 +289,11 @@ def _matches(pattern: str) -> list[str]:
         return []
 
 
-def _all(folder: Path) -> _Pattern:
-    """Return `parts/*.obj`, of the most frequent ending, for the shell to expand."""
-    ((ending, _),) = Counter(file.suffix for file in _meshes(folder)).most_common(1)
+def _all(folder: Path) -> list[str]:
+    """Return `parts/*.obj` for each ending of the meshes there, for the shell to expand."""
     inside = "" if folder == Path() else f"{_quoted(str(folder))}/"
-    return _Pattern(f"{inside}*{ending}")
+    endings = sorted({file.suffix for file in _meshes(folder)})
+    return [_Pattern(f"{inside}*{ending}") for ending in endings]
 
 
 def _one_folder(paths: Sequence[str]) -> list[str]:

@@ -13,12 +13,11 @@ from satcheck.report.assets import AssetsReport
 from satcheck.report.motions import JointPath
 from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SampledBody, SamplesReport
-from satcheck.scene import Body, MeshFile, MeshFiles, Refused, Scene
+from satcheck.scene import Body, MeshFiles, Refused, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import FilePart
 from satcheck.scene.files.nodes import CORNER
 from satcheck.scene.files.readers import ReadLimits
-from satcheck.scene.inspect import shape_file
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
 from satcheck.scene.opening import Permitted, read_whole
 from satcheck.scene.planar.outline import shape_from
@@ -49,20 +48,19 @@ def stated_scene(
     for entry in report.bodies:
         if entry.sha256 is None:
             continue  # the report says why
-        file = _mesh_file(entry, files, root)
-        if isinstance(file, Refused):
-            missing = file.code == "file-not-found"
+        body = _body(entry, files, root)
+        if isinstance(body, Refused):
+            missing = body.code == "file-not-found"
             hint = " (--root names the folder where the check ran)" if missing else ""
-            issues.append(_issue(GONE, entry, f"not drawn: {file}{hint}"))
+            issues.append(_issue(GONE, entry, f"not drawn: {body}{hint}"))
             continue
-        body = _placed(entry, file)
         try:
             CORNER.transformed(body.transform or IDENTITY)
         except (ValueError, OverflowError) as error:
             issues.append(_issue(GONE, entry, f"not drawn: {error}"))
             continue
         bodies.append(body)
-        if file.sha256 != entry.sha256:
+        if body.file.sha256 != entry.sha256:
             changed = f"{entry.file} has changed since the report was made"
             issues.append(_issue(CHANGED, entry, f"{changed}: the body is drawn as it is now"))
     motions = () if isinstance(report, SamplesReport) else report.motions
@@ -82,20 +80,16 @@ def _motion(stated: StatedMotion) -> Motion:
     return Motion(stated.bodies, msgspec.convert(values, _PATHS[values["kind"]]), stated.clear)
 
 
-def _mesh_file(entry: BodyReport | SampledBody, files: MeshFiles, root: Path) -> MeshFile | Refused:
-    """Return the mesh file of a body. Of a shape the report has the sizes: the file that states it
-    is not read again."""
-    location = str(root / entry.file)
-    if entry.shape is not None:
-        try:
-            return shape_file(shape_from(to_builtins(entry.shape)), entry.file)
-        except Refused as error:
-            return error
-    return files.mesh(FilePart(entry.file, location, entry.path))
-
-
-def _placed(entry: BodyReport | SampledBody, file: MeshFile) -> Body:
+def _body(entry: BodyReport | SampledBody, files: MeshFiles, root: Path) -> Body | Refused:
+    """Return the body. Of a shape the report has the sizes: the file that states it is not read
+    again."""
     shape = None if entry.shape is None else shape_from(to_builtins(entry.shape))
+    if shape is not None:
+        file = files.shape(shape, entry.file)
+    else:
+        file = files.mesh(FilePart(entry.file, str(root / entry.file), entry.path))
+    if isinstance(file, Refused):
+        return file
     return Body(entry.id, entry.name, file, entry.transform, shape=shape, path=entry.path)
 
 

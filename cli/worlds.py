@@ -11,10 +11,9 @@ from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, cast
 
 import click
-from msgspec.structs import asdict
 
 from satcheck.audit.baseline import read_baseline
 from satcheck.audit.batch.local import check_locally
@@ -48,7 +47,7 @@ from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import Issue
 from satcheck.report.settings import StatedConfig
 from satcheck.scene.asset_files import Assets, asset_files
-from satcheck.scene.loader import has_only_rules, read_rules
+from satcheck.scene.loader import LoadOptions, has_only_rules, read_rules
 from satcheck.scene.opening import STANDARD_INPUT, Permitted
 from satcheck.scene.words import listed
 
@@ -61,11 +60,8 @@ _ELSEWHERE = "name another folder in TMPDIR, or a file for the results, -o resul
 
 def check_worlds(
     worlds: Sequence[World],
-    inputs: Inputs,
-    options: Mapping[str, Any],
-    baseline: Path | None,
+    terms: CheckOptions,
     to: Delivery,
-    config: StatedConfig | None,
     limits: Limits = _LIMITS,
     *,
     complete: bool = True,
@@ -78,18 +74,17 @@ def check_worlds(
     """Check worlds into a file of results, write the documents from it, and return the exit code,
     that of the worst world.
 
-    inputs: how files are read. options: those of `audit.Settings`. config: the options that come
-    from a config file. limits: for each world. complete: these are all worlds; a rule that none of
-    them needs is unused. compares: without a pair nothing passes. results: the file or URL; None: a
-    file for this call, whose results have times. resume: keep its results that hold. scheduler: of
-    another engine than the local one. After Ctrl-C a file for this call has the worlds that are
-    done, and the report says how many are not. Raises KeyboardInterrupt if none is, and where the
-    file stays.
+    terms: of `check_options`. limits: for each world. complete: these are all worlds; a rule that
+    none of them needs is unused. compares: without a pair nothing passes. results: the file or URL;
+    None: a file for this call, whose results have times. resume: keep its results that hold.
+    scheduler: of another engine than the local one. After Ctrl-C a file for this call has the
+    worlds that are done, and the report says how many are not. Raises KeyboardInterrupt if none is,
+    and where the file stays.
     """
-    terms, document = check_options(inputs, options, baseline, config), Document()
+    document = Document()
     how: dict[str, Any] = {"scheduler": scheduler}
     if scheduler is None:
-        jobs = options["jobs"] or os.cpu_count() or 1
+        jobs = cast("int", terms.settings["jobs"]) or os.cpu_count() or 1
         threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
         how = {"slots": jobs, "wanted": Wanted(kept=results is not None, threads=threads)}
     check = partial(engine, options=terms, limits=limits, **how)
@@ -114,23 +109,46 @@ def check_worlds(
             return code
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
-        with StoredResults([Path(path)]) as stored:
-            found = (each.asset for each in stored)
-            seen = overview(found, issues, top=to.top, compares=compares and not left)
-            drawing = Drawing(
-                allow_outside=inputs.allow_outside,
-                top=to.top or Drawing().top,
-                undrawn="interrupted" if left else "",  # each would take as long as a check
-            )
-            deliver_assets(document, seen, stored, to, drawing)
-            if to.quiet or Target("table", None) not in to.targets:
-                _tell_errors(stored)
-    if not to.quiet:
-        tell_assets(seen, to)
+        deliver = partial(_deliver, document, Path(path), issues, to, terms.allow_outside)
+        compares, is_broken_off = compares and not left, bool(left)
+        try:
+            seen = deliver(compares, undrawn=is_broken_off)
+        except KeyboardInterrupt:
+            if stays or document.is_begun:
+                raise
+            write_before_the_end()
+            seen, is_broken_off = deliver(compares, undrawn=True), True
     if left:
         talk(f"satcheck: {issues[0].message}")
-        return exit_codes.INTERRUPTED
-    return seen.exit_code(exit_zero=to.exit_zero)
+    return exit_codes.INTERRUPTED if is_broken_off else seen.exit_code(exit_zero=to.exit_zero)
+
+
+def _deliver(
+    document: Document,
+    results: Path,
+    issues: tuple[Issue, ...],
+    to: Delivery,
+    allow_outside: bool,
+    compares: bool,
+    *,
+    undrawn: bool,
+) -> Overview:
+    """Write the documents of a file of results. undrawn: after Ctrl-C, as each picture would take
+    as long as a check."""
+    with StoredResults([results]) as stored:
+        found = (each.asset for each in stored)
+        seen = overview(found, issues, top=to.top, compares=compares)
+        drawing = Drawing(
+            allow_outside=allow_outside,
+            top=to.top or Drawing().top,
+            undrawn="interrupted" if undrawn else "",
+        )
+        deliver_assets(document, seen, stored, to, drawing)
+        if to.quiet or Target("table", None) not in to.targets:
+            _tell_errors(stored)
+    if not to.quiet:
+        tell_assets(seen, to)
+    return seen
 
 
 def _run(
@@ -216,9 +234,9 @@ def check_options(
     if baseline is not None:
         read_baseline(baseline)
     for path in inputs.rules:
-        read_rules(str(path), inputs.permitted)
+        read_rules(path, inputs.permitted)
     return CheckOptions(
-        **asdict(inputs.load_options),
+        **{name: getattr(inputs, name) for name in LoadOptions.__struct_fields__},
         settings={**options, **inputs.limits},
         names=names_of_lengths(options),
         baseline=None if baseline is None else str(baseline),

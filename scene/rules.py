@@ -18,6 +18,7 @@ from satcheck.core.conventions import LARGEST_LENGTH
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.table import NotNegative, Table, Text
 from satcheck.scene.units import LENGTH_PATTERN
+from satcheck.scene.words import listed, meant
 
 Severity = Literal["error", "warning", "note", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
@@ -126,6 +127,14 @@ class Selector(str):
             return [body for body in bodies if not groups.isdisjoint(body.groups)]
         ids = frozenset(self.choose({body.id for body in bodies}))
         return [body for body in bodies if body.id in ids]
+
+    def unmatched(self, bodies: Sequence[B]) -> str:
+        """Return `no body is palm: there are hand, arm`, where none of the bodies is selected."""
+        names = [body.id for body in bodies]
+        if self.of_groups:
+            names = sorted({f"{GROUP}{group}" for body in bodies for group in body.groups})
+        known = meant(self, names) or f": there are {listed(names) or 'none'}"
+        return f"no {'group' if self.of_groups else 'body'} is {self}{known}"
 
 
 # In a scene file: a glob, and a number in the units of the scene or a text with a unit, "2mm".

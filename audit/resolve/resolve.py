@@ -160,7 +160,7 @@ def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
     for selector in map(Selector, pins):
         chosen = selector.select(scene.in_order())
         if not chosen:
-            raise SatcheckError("unknown-pin", f"no body is called {selector.text!r}")
+            raise SatcheckError("unknown-pin", selector.unmatched(scene.in_order()))
         pinned.update(body.id for body in chosen)
     return frozenset(pinned)
 

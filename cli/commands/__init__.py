@@ -49,20 +49,16 @@ def _plugins() -> dict[str, Plugin]:
 
 
 def is_command(word: str) -> bool:
-    """Return whether a word is the name of a command. Other packages are asked last, and only for a
-    word that may be one."""
-    return word in COMMANDS or word in _plugins() or _of_others(word) is not None
+    """Return whether a word is the name of a command."""
+    return word in COMMANDS or _plugin(word) is not None
 
 
 def command_named(name: str) -> click.Command | None:
     """Return the click command of this name; None: there is none."""
     if name in COMMANDS:
-        place = f"{__name__}.{name}:command"
-    elif plugin := _plugins().get(name) or _of_others(name):
-        place = plugin.command
-    else:
-        return None
-    return cast("click.Command", function_at(place))
+        return cast("click.Command", function_at(f"{__name__}.{name}:command"))
+    plugin = _plugin(name)
+    return None if plugin is None else cast("click.Command", function_at(plugin.command))
 
 
 def all_commands() -> dict[str, str]:
@@ -71,7 +67,9 @@ def all_commands() -> dict[str, str]:
     return {**{plugin.name: plugin.about for plugin in plugins}, **COMMANDS}
 
 
-def _of_others(word: str) -> Plugin | None:
-    if not _WORD.fullmatch(word):
-        return None
-    return next((plugin for plugin in others("commands", (Plugin,)) if plugin.name == word), None)
+def _plugin(word: str) -> Plugin | None:
+    """Other packages are asked last, and only for a word that may be a name."""
+    found = _plugins().get(word)
+    if found is None and _WORD.fullmatch(word):
+        found = next((each for each in others("commands", (Plugin,)) if each.name == word), None)
+    return found

@@ -30,7 +30,7 @@ TABLE_ROWS = 20
 @option.pair
 @click.option(
     "--top",
-    type=click.IntRange(min=1),
+    type=option.Whole(min=1),
     metavar="N",
     help=f"List the N most telling axes: the largest gaps, then the smallest overlaps. "
     f"[default: {TABLE_ROWS} in a table, all in JSON]",
@@ -39,14 +39,8 @@ TABLE_ROWS = 20
 @option.planar
 @form_option
 @option.output
-@scene_option.split
-@scene_option.merge
-@scene_option.units
 @option.open_meshes
-@scene_option.reading
-@scene_option.package
-@scene_option.geometry
-@scene_option.one_pose
+@scene_option.one_scene
 @option.common
 def command(
     form: str | None,

@@ -26,17 +26,13 @@ from satcheck.cli.formats.registry import REPORTS, Format
 from satcheck.cli.inputs import Inputs, refuse_early, typed
 from satcheck.cli.output import talk
 from satcheck.cli.rendering import Delivery, refuse_certificate
-from satcheck.cli.worlds import (
-    asset_names,
-    check_worlds,
-    tell_foreign,
-)
+from satcheck.cli.worlds import asset_names, check_options, check_worlds, tell_foreign
 from satcheck.core.errors import SatcheckError
 from satcheck.core.plugins import function_at
 from satcheck.scene.asset_files import NO_ASSETS
 from satcheck.scene.changed_assets import changed_since
 from satcheck.scene.files.readers import mesh_reader
-from satcheck.scene.opening import Permitted, is_folder
+from satcheck.scene.opening import is_folder
 
 # What is about one world, or about one report.
 _NOT_HERE = (
@@ -144,15 +140,9 @@ def command(
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
     targets, results = _targets(form, outputs)
-    if (engine == "dask") != (scheduler is not None):
-        raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
-    if not (inputs.paths or manifest):
-        raise click.UsageError("give a folder or files: `satcheck batch .` checks this folder")
-    local = tuple(name for name in inputs.paths if not is_url(name))
-    assets = asset_names(replace(inputs, paths=local)) if local else NO_ASSETS
-    foreign = foreign_worlds(assets.foreign)
-    worlds = _worlds([*((name,) for name in assets.files), *foreign], inputs, manifest, shard)
-    inputs = replace(inputs, folders=tuple(assets.folders))
+    check = _engine(engine, scheduler)
+    worlds, foreign, folders = _worlds(inputs, manifest, shard)
+    inputs = replace(inputs, folders=folders)
     files = [*filter(None, (target.output for target in targets))]
     if results is not None and not is_url(results):
         files.append(Path(results))
@@ -160,30 +150,21 @@ def command(
     if results is None:
         if resume:
             raise click.UsageError("--resume: name a file for the results, -o results.jsonl")
-        forms = {target.form for target in targets}
-        refuse_certificate(forms, wanted=options["certificate"])
+        refuse_certificate({target.form for target in targets}, wanted=options["certificate"])
     config = stated_config(click.get_current_context())
     if since is not None:
-        if any(map(is_remote, worlds)):
-            raise click.UsageError("--changed-since is about files of this machine, not at URLs")
-        shared = [*inputs.rules, *filter(None, [baseline, Path(config.file) if config else None])]
-        worlds = _changed(since, worlds, shared, inputs.permitted)
+        worlds = _changed(since, worlds, inputs, [baseline, config.file if config else None])
     if not quiet:
         tell_foreign(set(worlds).intersection(foreign))
-    limits = Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"]))
-    delivery = Delivery(targets, quiet, exit_zero, options["timings"], top)
     return check_worlds(
         worlds,
-        inputs,
-        options,
-        baseline,
-        delivery,
-        config,
-        limits,
+        check_options(inputs, options, baseline, config),
+        Delivery(targets, quiet, exit_zero, options["timings"], top),
+        Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"])),
         complete=since is None and shard.count == 1,
         results=results,
         resume=resume,
-        engine=_engine(engine),
+        engine=check,
         scheduler=scheduler,
     )
 
@@ -204,10 +185,14 @@ def _targets(form: str | None, outputs: Sequence[str]) -> tuple[tuple[Target, ..
 
 
 def _changed(
-    revision: str, worlds: Sequence[World], shared: Sequence[Path], permitted: Permitted
+    revision: str, worlds: Sequence[World], inputs: Inputs, more: Sequence[Path | str | None]
 ) -> Sequence[World]:
-    """Return the assets that changed. shared: what these files say of every asset counts."""
-    if new := changed_since(revision, list(map(str, shared)), permitted):
+    """Return the assets that changed. more: files beside the rules, None for one that is not given.
+    What these say of every asset counts."""
+    shared, permitted = [*inputs.rules, *map(str, filter(None, more))], inputs.permitted
+    if any(map(is_remote, worlds)):
+        raise click.UsageError("--changed-since is about files of this machine, not at URLs")
+    if new := changed_since(revision, shared, permitted):
         talk(f"satcheck: {new[0]} changed since {revision}: every asset is checked")
         return worlds
     named = [name for world in worlds for name in world if not is_folder(name)]
@@ -238,7 +223,7 @@ def _refuse(
     for output in outputs if files else ():
         refuse_early(read, output, baseline)
     readers = [mesh_reader(Path(name).suffix) for name in files]
-    for name in typed(inputs.read):
+    for name in typed(inputs.reading):
         if None not in readers and not any(
             name in {each.name for each in reader.options} for reader in readers if reader
         ):
@@ -247,13 +232,19 @@ def _refuse(
 
 
 def _worlds(
-    near: Sequence[World], inputs: Inputs, manifest: str | None, shard: Shard
-) -> Sequence[World]:
-    """Those of the shard, each once. near: on this machine. click.UsageError if there is none in
-    any shard."""
+    inputs: Inputs, manifest: str | None, shard: Shard
+) -> tuple[Sequence[World], list[World], tuple[str, ...]]:
+    """Return those of the shard, each once, those of files that no reader knows, and the folders
+    that are named. click.UsageError if there is none in any shard."""
+    if not (inputs.paths or manifest):
+        raise click.UsageError("give a folder or files: `satcheck batch .` checks this folder")
+    local = tuple(name for name in inputs.paths if not is_url(name))
+    assets = asset_names(replace(inputs, paths=local)) if local else NO_ASSETS
+    foreign = foreign_worlds(assets.foreign)
     remote = [name for name in inputs.paths if is_url(name)]
     named: Iterator[World] = chain(
-        near,
+        ((name,) for name in assets.files),
+        foreign,
         ((name,) for url in remote for name in _meant_by(url)),
         read_manifest(manifest) if manifest is not None else (),
     )
@@ -262,7 +253,8 @@ def _worlds(
         raise SatcheckError("no-assets", "it names no scene", file=manifest)
     if first is None:
         raise click.UsageError("no file is named: give a folder or files")
-    return tuple(dict.fromkeys(world for world in chain([first], named) if shard.has(world)))
+    kept = dict.fromkeys(world for world in chain([first], named) if shard.has(world))
+    return tuple(kept), foreign, tuple(assets.folders)
 
 
 def _meant_by(url: str) -> list[str]:
@@ -275,7 +267,9 @@ def _meant_by(url: str) -> list[str]:
     return matching
 
 
-def _engine(name: str) -> Callable[..., Generator[list[Answer]]]:
+def _engine(name: str, scheduler: str | None) -> Callable[..., Generator[list[Answer]]]:
+    if (name == "dask") != (scheduler is not None):
+        raise click.UsageError("--engine dask and --scheduler ADDRESS need each other")
     try:
         return cast("Callable[..., Generator[list[Answer]]]", function_at(ENGINES[name]))
     except ImportError:

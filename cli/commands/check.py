@@ -49,7 +49,7 @@ SMALL_BODIES = 2
 SMALL_TRIANGLES = 1000
 # Objects made between two searches for cycles: of what a check makes almost none is in one.
 COLLECT_AFTER = 50_000
-WIDTH = click.FloatRange(0, 1, min_open=True, max_open=True)
+WIDTH = option.Number(0, 1, min_open=True, max_open=True)
 
 
 class _DefaultContext(click.Context):
@@ -152,7 +152,7 @@ units split sample explain version"""
 @option.setting("accuracy", type=click.Choice(ACCURACIES), metavar="LEVEL")
 @option.method
 @option.setting("width", type=WIDTH, metavar="RATIO")
-@option.setting("budget", type=click.FloatRange(0, MOST_BUDGET, min_open=True), metavar="SECONDS")
+@option.setting("budget", type=option.Number(0, MOST_BUDGET, min_open=True), metavar="SECONDS")
 @option.planar
 @scene_option.split
 @option.setting("fail_on", type=click.Choice(FAIL_ON), metavar="SEVERITY")
@@ -181,7 +181,7 @@ units split sample explain version"""
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only; -o still writes the report.")
 @option.exit_zero
 @scene_option.units
-@scene_option.reading
+@scene_option.reading()
 @scene_option.package
 @scene_option.geometry
 @scene_option.poses
@@ -225,10 +225,11 @@ def command(
         config = stated_config(ctx)
     worlds = worlds_of(inputs)
     if len(worlds) > 1:
-        from satcheck.cli.worlds import check_worlds
+        from satcheck.cli.worlds import check_options, check_worlds
 
         refuse_of_worlds(to.forms, inputs, explain=explain, **options)
-        return check_worlds(worlds, inputs, options, baseline, to, config, compares=True)
+        terms = check_options(inputs, options, baseline, config)
+        return check_worlds(worlds, terms, to, compares=True)
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed="json" in to.forms)

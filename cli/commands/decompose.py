@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -45,7 +45,7 @@ _Split = tuple[Body, Decomposition | SatcheckError]
 @option.paths("MESH")
 @click.option(
     "--threshold",
-    type=click.FloatRange(0, 1, min_open=True),
+    type=option.Number(0, 1, min_open=True),
     metavar="RATIO",
     default=option.DEFAULTS.part_threshold,
     show_default=True,
@@ -54,7 +54,7 @@ _Split = tuple[Body, Decomposition | SatcheckError]
 )
 @click.option(
     "--seed",
-    type=click.IntRange(min=0, max=2**32 - 1),
+    type=option.Whole(min=0, max=2**32 - 1),
     metavar="N",
     default=option.DEFAULTS.part_seed,
     show_default=True,
@@ -67,9 +67,7 @@ _Split = tuple[Body, Decomposition | SatcheckError]
 )
 @scene_option.split
 @scene_option.units
-@scene_option.outside
-@option.limits("body-seconds")
-@scene_option.read
+@scene_option.reading("body-seconds")
 @option.common
 def command(
     outputs: tuple[Path, ...],
@@ -103,14 +101,7 @@ def command(
         scene.require_one_unit()
     if not scene.bodies and form == "table":
         return exit_codes.ERROR  # the error is told
-    store = user_cache()
-    bodies: list[_Split] = []
-    with Bar("bodies") as bar:
-        for number, body in enumerate(scene.bodies, 1):
-            with step(f"splitting {body.id}, {number} of {len(scene.bodies)}"):
-                bodies.append((body, _split(body, threshold, seed, seconds, store)))
-            if bar is not None:
-                bar(number, len(scene.bodies))
+    bodies = _split_each(scene.bodies, threshold, seed, seconds)
     parts = [part for each in bodies for part in _named(*each)]
     rounding = None
     if parts_out is not None:
@@ -134,6 +125,19 @@ def command(
     if scene.unreadable or not parts:
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if failures else exit_codes.CLEAN
+
+
+def _split_each(
+    bodies: Sequence[Body], threshold: float, seed: int, seconds: float
+) -> list[_Split]:
+    store, done = user_cache(), []
+    with Bar("bodies") as bar:
+        for number, body in enumerate(bodies, 1):
+            with step(f"splitting {body.id}, {number} of {len(bodies)}"):
+                done.append((body, _split(body, threshold, seed, seconds, store)))
+            if bar is not None:
+                bar(number, len(bodies))
+    return done
 
 
 def _split(

@@ -47,7 +47,7 @@ from satcheck.scene.units import Length
 @click.option("--max-motion", type=length, help="Move no body farther than this.")
 @click.option(
     "--iterations",
-    type=click.IntRange(min=0),
+    type=option.Whole(min=0),
     metavar="N",
     default=50,
     show_default=True,
@@ -154,7 +154,7 @@ def _written(
             [str(path)],
             units=inputs.units,
             allow_outside=inputs.allow_outside,
-            reading=inputs.read,
+            reading=inputs.reading,
             geometry=inputs.geometry,
         )
     except SatcheckError:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shlex
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from itertools import chain
@@ -20,7 +19,7 @@ from satcheck.audit.batch.slot_server import Wanted
 from satcheck.audit.settings import Settings
 from satcheck.audit.suggest import MEASURED, Suggestions, suggest, suggestions_of
 from satcheck.cli import exit_codes, option, scene_option
-from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.click_classes import DEFAULT_COMMAND, HELP_NAMES, Command
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import Format
 from satcheck.cli.formats.suggest import remark, srdf, toml
@@ -29,6 +28,7 @@ from satcheck.cli.option import settings_of
 from satcheck.cli.output import Document, issue_line, talk
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
+from satcheck.cli.slips import call_of
 from satcheck.cli.worlds import asset_names, check_options
 from satcheck.report.assets import Result
 from satcheck.report.json import document as json_document
@@ -56,12 +56,7 @@ FORMATS = {
 @option.output
 @option.exclude
 @option.planar
-@scene_option.split
-@scene_option.merge
-@scene_option.units
-@scene_option.reading
-@scene_option.package
-@scene_option.geometry
+@scene_option.scene
 @scene_option.poses
 @option.common
 def command(
@@ -116,8 +111,8 @@ def command(
             talk(f"satcheck: {issue_line(issue)}")
     talk(remark(result, pairs, never=never))
     if form == "toml" and pairs and output is not None:
-        command = ["batch"] if of_folders else []
-        line = shlex.join(["satcheck", *command, *inputs.paths, "--rules", str(output)])
+        name = "batch" if of_folders else DEFAULT_COMMAND
+        line = call_of(name, inputs.paths, ["--rules", str(output)])
         talk(f"Next: {line} checks with these rules.")
     if form == "srdf" and pairs:
         talk("An SRDF has one line for two links: it covers all pairs of their bodies.")

@@ -30,9 +30,7 @@ from satcheck.cli.progress import Bar
 @scene_option.split
 @scene_option.merge
 @scene_option.units
-@scene_option.outside
-@option.limits("run-seconds")
-@scene_option.read
+@scene_option.reading("run-seconds")
 @option.common
 def command(
     form: str | None,

@@ -69,7 +69,7 @@ _FORMATS = {
 )
 @click.option(
     "--top",
-    type=click.IntRange(min=1),
+    type=option.Whole(min=1),
     metavar="N",
     help="Report the N worst assets, the worst first; in a gallery and for --pictures their worst "
     f"findings. The summary and the exit code count all.  [default: {TOP} in a table and a "
@@ -84,7 +84,7 @@ _FORMATS = {
 )
 @click.option(
     "--pose",
-    type=click.IntRange(1),
+    type=option.Whole(1),
     metavar="NUMBER",
     help="The pose to show, if a report has several.  [default: all on a page, else the worst]",
 )
@@ -127,7 +127,7 @@ def command(
     The exit code is that of the check, also of a batch that did not finish: that is never a pass.
     Of a 3-D view alone it is 0, or 3 if a file is missing or has changed, or results are missing.
     """
-    inputs = Inputs(tuple(map(str, (*reports, *filter(None, [manifest])))))
+    inputs = Inputs(paths=tuple(map(str, (*reports, *filter(None, [manifest])))))
     is_opened = form is None and not outputs and folder is None
     refuse_outputs(outputs, inputs)
     targets = () if is_opened else targets_of(form, outputs, ALL, _FORMATS)

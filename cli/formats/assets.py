@@ -27,10 +27,8 @@ from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import BesideBaseline, config_lines
 from satcheck.cli.formats.tables import (
-    BOLD_MAGENTA,
-    BOLD_RED,
-    GREEN,
     ROWS,
+    VERDICT_STYLES,
     Column,
     all_begin,
     fitted_each,
@@ -52,20 +50,12 @@ if TYPE_CHECKING:
 
 # Kinds of problems that make an asset incomplete.
 _OPEN = (NOTHING_TO_CHECK, "undecided")
-# Colour only repeats what the word says.
-_STYLES = {
-    "pass": GREEN,
-    "fail": BOLD_RED,
-    "incomplete": BOLD_MAGENTA,
-    "error": BOLD_MAGENTA,
-}
-
-
-_WORDS: dict[AssetVerdict, str] = {
-    "error": "ERROR",
-    "fail": "FAIL",
-    "incomplete": "INCOMPLETE",
-    "pass": "PASS",
+# What one asset does, and what several do.
+_VERDICTS: dict[AssetVerdict, tuple[str, str]] = {
+    "error": ("has errors", "have errors"),
+    "fail": ("fails", "fail"),
+    "incomplete": ("incomplete", "incomplete"),
+    "pass": ("passes", "pass"),
 }
 _NOTHING_COMPARED = Issue(
     NOTHING_TO_CHECK,
@@ -148,22 +138,16 @@ def _counts(seen: Overview, *, names: bool) -> str:
     if seen.verdict == "pass" and seen.lone == seen.total:
         said = f"{total} ({nothing})" if seen.total else total
         return f"PASS: {', '.join([said, *accepted])}."
-    words: dict[AssetVerdict, str] = {
-        "error": "have errors" if counts["error"] > 1 else "has errors",
-        "fail": "fail" if counts["fail"] > 1 else "fails",
-        "incomplete": "incomplete",
-        "pass": "pass" if counts["pass"] > 1 else "passes",
-    }
     parts = [
-        f"{counts[verdict]:,} {said}{_named(seen, verdict) if names else ''}"
-        for verdict, said in words.items()
+        f"{counted(counts[verdict], *words)}{_named(seen, verdict) if names else ''}"
+        for verdict, words in _VERDICTS.items()
         if counts[verdict]
     ]
     if seen.lone:
         some = "" if seen.lone == counts["pass"] else f"{seen.lone:,} "
         parts[-1] += f" ({some}{nothing})"
     parts += accepted
-    return f"{_WORDS[seen.verdict]}: {': '.join([total, *filter(None, [', '.join(parts)])])}."
+    return f"{seen.verdict.upper()}: {': '.join([total, *filter(None, [', '.join(parts)])])}."
 
 
 def next_step(seen: Overview) -> list[str]:
@@ -189,7 +173,9 @@ def _steps_of_folders(seen: Overview) -> list[str]:
         return []
     steps = []
     if seen.named.get("fail") and not (ctx.params["rules"] or ctx.params["baseline"]):
-        line = shlex.join(["satcheck", "suggest", *paths, "-o", "rules.toml"])
+        from satcheck.cli.slips import call_of
+
+        line = call_of("suggest", paths, ["-o", "rules.toml"])
         steps.append(f"Next: {line} proposes rules for overlaps that are meant.")
     for file in seen.named.get("error", [])[:1]:
         name = shlex.quote(escape(PurePath(file).name))
@@ -202,9 +188,10 @@ def _check_of(file: str) -> str:
     ctx = click.get_current_context(silent=True)
     if ctx is None or ctx.info_name != "batch":
         return f"satcheck {shlex.quote(file)}"
-    from satcheck.cli.slips import check_of
+    from satcheck.cli.click_classes import DEFAULT_COMMAND
+    from satcheck.cli.slips import call_of
 
-    return check_of(file, ctx)
+    return call_of(DEFAULT_COMMAND, [file])
 
 
 def _named(seen: Overview, verdict: AssetVerdict) -> str:
@@ -222,7 +209,7 @@ def _table(assets: list[Asset], root: str, page: Page) -> list[str]:
         Column("fail", pairs, right=True),
         Column("worst", worst, folds=True),
     )
-    return table(columns, page, [_STYLES[asset.verdict] for asset in assets])
+    return table(columns, page, [VERDICT_STYLES[asset.verdict] for asset in assets])
 
 
 def cells_of(asset: Asset) -> tuple[str, str, str, str]:

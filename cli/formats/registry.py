@@ -88,9 +88,7 @@ def formats(kinds: Iterable[Kind] = ALL) -> dict[str, Format]:
 
 def format_named(name: str) -> Format | None:
     """Return the format of this name; None: there is none."""
-    if name not in _registry():
-        _add(_registry(), others("formats", (Format,)))
-    return _registry().get(name)
+    return _first(lambda each: each.name == name)
 
 
 def kind_of(name: str) -> Kind:
@@ -110,11 +108,7 @@ def pieces(reports: Reports, name: str) -> Iterable[str]:
 
 def format_of(ending: str) -> Format | None:
     """Return the format of files whose names end so; None: there is none."""
-    found = _with_ending(ending)
-    if found is None and ending:
-        _add(_registry(), others("formats", (Format,)))
-        found = _with_ending(ending)
-    return found
+    return _first(lambda each: ending in each.endings)
 
 
 def _accepted(name: str) -> Format:
@@ -123,8 +117,13 @@ def _accepted(name: str) -> Format:
     return found
 
 
-def _with_ending(ending: str) -> Format | None:
-    return next((each for each in _registry().values() if ending in each.endings), None)
+def _first(is_meant: Callable[[Format], bool]) -> Format | None:
+    """Other packages are asked last."""
+    found = next(filter(is_meant, _registry().values()), None)
+    if found is None:
+        _add(_registry(), others("formats", (Format,)))
+        found = next(filter(is_meant, _registry().values()), None)
+    return found
 
 
 def _add(registry: dict[str, Format], new: Iterable[Format]) -> None:

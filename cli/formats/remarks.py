@@ -162,10 +162,8 @@ def _body(body: BodyReport, pairs: int, swept: int) -> list[str]:
         return [f"{body.id}: could not be used, its {counted(pairs, 'pair')} not checked"]
     if body.health is None or not body.health.holes or not swept:
         return []
-    verb = "moves" if swept == 1 else "move"
-    return [
-        f"{body.id} has holes: {counted(swept, 'pair')} {verb} past them, and they may be filled"
-    ]
+    moving = counted(swept, "pair moves", "pairs move")
+    return [f"{body.id} has holes: {moving} past them, and they may be filled"]
 
 
 def _issues(report: Report, shown: Sequence[Finding]) -> Iterator[Remark]:

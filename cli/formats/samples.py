@@ -9,10 +9,8 @@ from satcheck.audit.messages import nothing_checked
 from satcheck.audit.words import counted, in_motion, interval, with_unit
 from satcheck.cli.formats.summary import config_line
 from satcheck.cli.formats.tables import (
-    BOLD_MAGENTA,
-    BOLD_RED,
-    GREEN,
     ROWS,
+    VERDICT_STYLES,
     Column,
     fitted_each,
     hidden,
@@ -20,6 +18,7 @@ from satcheck.cli.formats.tables import (
     table,
 )
 from satcheck.cli.output import issue_line
+from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from satcheck.cli.output import Page
-    from satcheck.report.report import Finding
+    from satcheck.report.report import Finding, Verdict
     from satcheck.report.samples import SampledPair, SampledPose, SamplesReport
 
 # More poses than this, and pairs are listed instead of poses.
@@ -36,8 +35,12 @@ FEW_POSES = 20
 FOUND = 8
 # At most so many lines about single poses.
 REMARKS = 10
-# The worst first. Colour only repeats what the word says.
-_STYLES = {"fail": BOLD_RED, "incomplete": BOLD_MAGENTA, "pass": GREEN}
+# What one pose does, and what several do.
+_VERDICTS: dict[Verdict, tuple[str, str]] = {
+    "pass": ("passes", "pass"),
+    "fail": ("fails", "fail"),
+    "incomplete": ("is incomplete", "are incomplete"),
+}
 
 
 def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
@@ -48,7 +51,7 @@ def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
     lines: list[str] = []
     if result.summary.samples <= FEW_POSES:
         found = [sample for sample in result.samples if sample.verdict != "pass"]
-        found.sort(key=lambda sample: list(_STYLES).index(sample.verdict))
+        found.sort(key=lambda sample: ASSET_VERDICTS.index(sample.verdict))
         poses = found[: top or ROWS]
         lines += _poses(poses, unit_of(result.units), page) if poses else []
         said = hidden(len(found) - len(poses), "pose")
@@ -76,7 +79,7 @@ def _poses(samples: Sequence[SampledPose], unit: str | None, page: Page) -> list
         Column("verdict", tuple(sample.verdict for sample in samples), graded=True),
         Column("found", tuple("\n".join(_found(s.findings, unit)) for s in samples), folds=True),
     )
-    return table(columns, page, [_STYLES[sample.verdict] for sample in samples])
+    return table(columns, page, [VERDICT_STYLES[sample.verdict] for sample in samples])
 
 
 def _found(findings: Sequence[Finding], unit: str | None) -> list[str]:
@@ -139,11 +142,9 @@ def samples_counts(result: SamplesReport) -> str:
     """`300 random poses (seed 0), 7 bodies, 12 pairs: 190 pass, 110 fail.`"""
     kind = "pose" if result.seed is None else "random pose"
     seed = "" if result.seed is None else f" (seed {result.seed})"
-    singular = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
-    plural = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
     parts = [
-        f"{count:,} {singular[verdict] if count == 1 else plural[verdict]}"
-        for verdict in ("pass", "fail", "incomplete")
+        counted(count, *words)
+        for verdict, words in _VERDICTS.items()
         if (count := result.summary.by_verdict[verdict])
     ]
     return (
@@ -172,9 +173,8 @@ def samples_verdict(result: SamplesReport) -> str:
 def _failed(result: SamplesReport) -> str:
     failed = [pair for pair in result.pairs if pair.fails]
     if not failed:  # bodies that rules ask to stand
-        poses = result.summary.by_verdict["fail"]
-        verb = "fails" if poses == 1 else "fail"
-        return f"{counted(poses, 'pose')} {verb} by the support of bodies"
+        poses = counted(result.summary.by_verdict["fail"], "pose fails", "poses fail")
+        return f"{poses} by the support of bodies"
     worst = min(failed, key=lambda pair: (-pair.fails, pair.first_overlap or 0))
     often = f"{worst.a} and {worst.b}, in {counted(worst.fails, 'pose')}"
     if len(failed) == 1:

@@ -101,7 +101,7 @@ def _hits(report: Report) -> list[str]:
     said = []
     for count, possibly in ((proven[True], ""), (proven[False], "possibly ")):
         if count:
-            said.append(f"{counted(count, 'pair')} {possibly}{'hits' if count == 1 else 'hit'}")
+            said.append(counted(count, f"pair {possibly}hits", f"pairs {possibly}hit"))
     if not said:
         return []
     first = min((hit for hit in hits if hit is not None), key=_first_time)
@@ -127,9 +127,9 @@ def _cross_check(report: Report) -> list[str]:
     if not asked:
         return ["Cross-check: no pair was asked about."]
     agree, disagree = standings.pop("agrees", 0), standings.pop("disagrees", 0)
-    parts = [f"{counted(agree, 'answer')} {'agrees' if agree == 1 else 'agree'}"]
+    parts = [counted(agree, "answer agrees", "answers agree")]
     if disagree:
-        parts.append(f"{disagree:,} {'disagrees' if disagree == 1 else 'disagree'}")
+        parts.append(counted(disagree, "disagrees", "disagree"))
     if missing := standings.total():
         parts.append(f"{missing:,} could not be had")
     if unasked := report.summary.pairs.total - report.summary.pairs.allowed - asked:
@@ -157,8 +157,8 @@ class BesideBaseline(Struct):
             return []
         parts = [counted(self.states["unchanged"], "known finding")]
         parts += [f"{self.states[s]:,} {s}" for s in _STATES if self.states[s]]
-        verb = "passes" if self.absent == 1 else "pass"
-        gone = f"; {self.absent:,} more {verb} now: satcheck baseline prune" if self.absent else ""
+        passing = counted(self.absent, "more passes", "more pass")
+        gone = f"; {passing} now: satcheck baseline prune" if self.absent else ""
         undecided = _UNDECIDED if self.states["undecided"] else ""
         return [f"Baseline: {', '.join(parts)}{gone}.{undecided}"]
 

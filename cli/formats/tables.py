@@ -26,10 +26,18 @@ from satcheck.cli.output import harmless
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
+    from satcheck.report.assets import AssetVerdict
 
 # Styles of rich.
 BOLD, GREEN, YELLOW, CYAN = "bold", "green", "yellow", "cyan"
 BOLD_RED, BOLD_MAGENTA = "bold red", "bold magenta"
+# Of a row about a pose or an asset. Colour only repeats what the word says.
+VERDICT_STYLES: dict[AssetVerdict, str] = {
+    "pass": GREEN,
+    "fail": BOLD_RED,
+    "incomplete": BOLD_MAGENTA,
+    "error": BOLD_MAGENTA,
+}
 # A table has at most so many rows, unless --top says how many.
 ROWS = 60
 # A table breaks no name into pieces shorter than this.

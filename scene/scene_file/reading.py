@@ -39,6 +39,7 @@ Places = Callable[[str, str | None], FilePart]  # of the keys `mesh` and `part` 
 
 SIMPLE = "satcheck-scene-1"
 _OF_RULES = {*document.RulesFile.__struct_encode_fields__}
+_OF_SCENE = {*document.Scene.__struct_encode_fields__}
 # The tables, and lists of tables, in a scene.
 _INNER = {"bodies": list, "rules": list, "motion": list, "statics": dict, "reading": dict}
 
@@ -59,7 +60,8 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
     if is_ours and "rules" in values and values.keys() <= _OF_RULES:
         return _read(text, permitted, document.RulesFile)
     if schema != SCENE_1:
-        raise _not_a_scene(path, schema)
+        keys = values.keys() - _OF_SCENE if schema is None and isinstance(values, dict) else ()
+        raise _not_a_scene(path, schema, sorted(keys))
     return _read(text, permitted, document.Scene)
 
 
@@ -79,11 +81,14 @@ def _schema_of(text: SceneText) -> object:
     return text.document.get("schema") if isinstance(text.document, dict) else None
 
 
-def _not_a_scene(path: str, schema: object) -> Refused:
+def _not_a_scene(path: str, schema: object, unknown: Sequence[str] = ()) -> Refused:
+    """unknown: keys that no scene has."""
     told = "" if schema is None else f", but {shown(schema)}"
     message = f'not a scene file: "schema" is not "{SCENE_1}"{told}'
     if isinstance(schema, str) and re.match(r"satcheck\.(?!scene)", schema):
         message += ": it is a result of satcheck, so give the files that it is about"
+    hints = ((key, meant(key, _OF_SCENE)) for key in unknown)
+    message += "".join(f"; {key} is unknown{hint}" for key, hint in hints if hint)
     return Refused("bad-scene", message, file=path)
 
 

@@ -28,6 +28,7 @@ T = TypeVar("T")
 
 MOST = 20  # errors told about one file
 _TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
+_BARE_LENGTH = r"=\s*([\d.]+\s?[a-zµ]+)\b"
 _TEXT = r'"[^"\\\n]*+(?:\\.[^"\\\n]*+)*+"'
 _NUMBERS = r"""\[[^][{}"'#]*+\]"""
 # A list of numbers is one token, and so is a matrix.
@@ -59,7 +60,7 @@ class SceneText:
         self._text = read_text(path, location, most)
         self._wrong: list[Wrong] = []
         if self.is_toml:
-            self.document: Any = _toml(path, self._text)
+            self.document: Any = read_toml(path, self._text)
             return
         self.document, has_repeated_keys = _json(path, self._text)
         if has_repeated_keys:
@@ -160,7 +161,7 @@ def read_text(path: str, location: Path, most: Most = OWN_FILE) -> str:
         raise Refused("bad-encoding", "the scene file is not UTF-8", file=path) from None
 
 
-def parse_toml(text: str) -> dict[str, Any]:
+def _parsed(text: str) -> dict[str, Any]:
     """Raises ValueError for text that is not TOML, and for a key of many parts: the parser takes
     time and memory by the square of their number."""
     dotted = (line for line in text.split("\n") if line.count(".") >= MAX_DEPTH)
@@ -169,14 +170,17 @@ def parse_toml(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
-def _toml(path: str, text: str) -> Any:
+def read_toml(path: str, text: str) -> dict[str, Any]:
+    """Raises Refused. path: for messages."""
     try:
-        return parse_toml(text)
+        return _parsed(text)
     except tomllib.TOMLDecodeError as error:
         match = re.fullmatch(_TOML_PLACE, str(error))
         reason, line = match.groups() if match else (str(error), None)
         line = int(line or len(text.splitlines()))
         message = f"not well-formed TOML: {reason}"
+        if bare := re.search(_BARE_LENGTH, "".join(text.splitlines()[line - 1 : line])):
+            message = f'a length with a unit stands in quotes: "{bare[1]}"'
         raise Refused("bad-scene", message, file=path, line=line) from None
     except (RecursionError, ValueError) as error:
         message = f"not readable TOML: {why_unreadable(error)}"

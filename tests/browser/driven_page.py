@@ -201,7 +201,7 @@ def test_the_ball_has_its_number(opened: Opened) -> None:
     page = opened(*PUSHED)
     page.wait_for_selector("#labels span")
     assert labels(page) == {
-        "a": "box", "b": "box_pushed", "ball": "thickness 1", "arrow": "way out 1"
+        "a": "box", "b": "box_pushed", "ball": "thickness 1", "arrow": "move box by 1"
     }  # fmt: skip
     assert share(page, "yellow") > 0.001
     press(page, "i")

@@ -14,7 +14,7 @@ from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.report import Finding, Relation, Report, RuleReport
 from satcheck.report.sweep import WorstPose
 from tests.audit.shapes import open_box, unit_box, write
-from tests.cli.process import SAMPLES, Ran, satcheck
+from tests.cli.process import PUSHED, SAMPLES, Ran, satcheck
 from tests.cli.reports import (
     BOUNDED,
     HIT,
@@ -165,6 +165,22 @@ def test_only_new_and_worse_findings_fail() -> None:
     assert (accepted.summary.verdict, accepted.summary.accepted) == ("pass", 2)
     one = beside_baseline(checked, Baseline(findings=known.findings[:1]), "b.json")
     assert (one.summary.verdict, one.summary.accepted) == ("fail", 1)
+
+
+def test_a_worse_finding_says_what_was_known() -> None:
+    now = beside_baseline(report(deep(2.5, 2.5)), Baseline(findings=(KNOWN,)), "b.json")
+    assert KNOWN.depth is not None
+    said = f"2.5 to pull apart, the baseline has depth {KNOWN.depth:g})"
+    assert said in now.message
+    assert said in now.findings[0].message
+    graver = replace(DEEPER, relation="contains")
+    (finding,) = beside_baseline(report(graver), Baseline(findings=(KNOWN,)), "b.json").findings
+    assert finding.reason == f"the baseline has penetrating, depth {KNOWN.depth:g}"
+
+
+def test_a_baseline_that_is_not_there(tmp_path: Path) -> None:
+    ran = satcheck(*PUSHED, "--baseline", str(tmp_path / "none.json"))
+    assert "none.json: no such file: `satcheck baseline write` makes one" in ran.err
 
 
 def test_a_finding_is_absent_only_if_its_pair_was_checked() -> None:

@@ -190,13 +190,21 @@ def test_csv_has_the_worst_first() -> None:
         MISSING.code, "error", MISSING.message
     )  # fmt: skip
     assert [row["b"] for row in rows[1:3]] == ["deeper", "block_pushed"]
-    assert [row["severity"] for row in rows[1:]] == ["error", "error", "warning", "note", "none"]
+    assert [row["severity"] for row in rows[1:]] == ["error", "error", "warning", "note"]
     assert (rows[2]["depth"], rows[2]["mtv_x"], rows[2]["file_b"]) == (
         "1",
         "-1",
         "block_pushed.obj",
     )
     assert rows[-1]["depth"] == ""
+
+
+def test_csv_has_separated_pairs_only_on_request() -> None:
+    gap = replace(SEPARATED, b="far", distance=2.5)
+    rows = rows_of(render({"all": scene_report(PENETRATING, SEPARATED, gap)}, "csv"))
+    assert [row["b"] for row in rows if row["relation"] == "separated"] == ["far"]
+    (alone,) = rows_of(render({"all": replace(scene_report(SEPARATED), issues=())}, "csv"))
+    assert alone["relation"] == "separated"
 
 
 def test_csv_has_units_rounded_figures_and_no_empty_column() -> None:

@@ -232,13 +232,14 @@ def test_three_commands_that_the_screen_names_make_a_gate(tmp_path: Path) -> Non
     (tmp_path / "my props").mkdir()
     shutil.copy(SAMPLES / "gripper.glb", tmp_path / "my props")
     (tmp_path / "my props/broken.glb").write_bytes(b"glTF")
-    first = satcheck("batch", "my props", cwd=tmp_path, env={"COLUMNS": "400"})
+    first = satcheck("batch", "my props", "--units", "m", cwd=tmp_path, env={"COLUMNS": "400"})
     assert first.code == 2
     words = "--exclude broken.glb leaves out my props/broken.glb until it is mended."
     assert first.out.endswith(f"\nNext: {words}\n")
     (line,) = re.findall(r"Next: satcheck (suggest .*) proposes", first.out)
     second = satcheck(*shlex.split(line), cwd=tmp_path)
     (line,) = re.findall(r"Next: satcheck (.*) checks with these rules", second.err)
+    assert line == "batch 'my props' --units m --rules rules.toml"
     third = satcheck(*shlex.split(line), "--exclude", "broken.glb", cwd=tmp_path)
     assert (third.code, "PASS: 1 asset" in third.out) == (0, True)
 

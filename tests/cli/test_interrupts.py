@@ -185,6 +185,25 @@ def test_a_gallery_of_what_is_done_waits_for_no_picture(
     assert "<img" not in page
 
 
+def test_results_that_are_done_are_shown(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Ctrl-C while pictures are drawn."""
+    from satcheck.cli import interrupts, worst_findings
+    from satcheck.cli.click_classes import satcheck
+
+    def interrupted(*_: object) -> bytes:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(worst_findings, "_picture", interrupted)
+    monkeypatch.setattr(interrupts, "_writing", False)
+    page = tmp_path / "all.html"
+    call = ["batch", str(SAMPLES / "gripper.glb"), "-o", str(page)]
+    assert satcheck.main(call, standalone_mode=False) == 130
+    assert "No picture: interrupted" in page.read_text()
+    assert "FAIL: 1 asset: 1 fails" in capsys.readouterr().err
+
+
 def test_without_an_asset_that_is_done_there_is_no_report(
     start: Callable[..., Started], tmp_path: Path
 ) -> None:

@@ -15,6 +15,7 @@ from satcheck.audit.samples import check_poses
 from satcheck.cli.formats.picture.data import picture_data
 from satcheck.cli.formats.picture.moments import Moments, moments_of
 from satcheck.cli.formats.picture.poses import all_poses, one_pose, worst_pose
+from satcheck.cli.formats.picture.shown import Shows
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.robot import RandomPoses, posed, read_path, with_joint_path
@@ -66,6 +67,8 @@ def test_the_links_of_a_path_stand_as_in_its_pose() -> None:
         name: tuple(value) if isinstance(value, list) else (value,)
         for name, value in hit.motion.joints.items()
     }
+    labels = Shows(report, scene, moments, "z").of(hit).labels
+    assert "hit at t = 0.984, between poses 2 and 3" in " ".join(label.text for label in labels)
     there = moments.scene_at(scene, moments.of[hit.id])
     for body, expected in zip(there.bodies, posed(scene, pose).bodies, strict=True):
         assert body.transform == pytest.approx(expected.transform, abs=1e-12)

@@ -192,6 +192,7 @@ def test_figures_of_a_finding_are_in_the_frame_of_the_page() -> None:
     assert shown["ball"]["centre"] == pytest.approx(np.array(finding.ball.centre) - middle)
     assert shown["ball"]["radius"] == finding.ball.radius
     assert shown["axis"] == finding.normal
+    assert "move l_bracket by " in " ".join(label[0] for label in shown["labels"])
     (component,) = shown["components"]
     assert component["low"] == pytest.approx(
         np.array(finding.components.items[0].bounds[0]) - middle

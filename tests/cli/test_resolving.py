@@ -147,7 +147,7 @@ def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
         ((), "give two or more"),
         (("box.obj",), "one body alone"),
         (("missing.json",), "no such file"),
-        ((*PUSHED, "--pin", "boks"), "no body is called 'boks'"),
+        ((*PUSHED, "--pin", "boks"), "no body is boks: there are box, box_pushed"),
         ((*PUSHED, "-o", "moved.obj"), ".scene.json, .txt, .json"),
         ((*PUSHED, "workcell.json", "-o", "moved.toml"), "or files without joints"),
         ((*PUSHED, "--max-motion", "1mm"), "no units"),

@@ -43,7 +43,10 @@ def expanded(command: str, folder: Path) -> list[str]:
     ("typed", "instead"),
     [
         (["my parts"], ["batch 'my parts'", "'my parts'/*.obj"]),
-        (["--clearance", "2", "."], ["batch --clearance 2 .", "--clearance 2 *.stl"]),
+        (
+            ["--clearance", "2", "."],
+            ["batch --clearance 2 .", "--clearance 2 *.glb *.obj *.off *.stl"],
+        ),
         (["box.obj"], ["batch box.obj", "box.obj box_flush.stl"]),
         (["check", "box.obj", "cube.off"], ["box.obj cube.off"]),
         (["help"], ["--help"]),
@@ -69,9 +72,11 @@ def expanded(command: str, folder: Path) -> list[str]:
             marks=needs("mjcf"),
         ),
         (["batch", "level", "--sample", "5"], []),
+        (["box.obj", "--exclude", "a*", "cube.off"], ["batch box.obj --exclude 'a*' cube.off"]),
+        (["box.obj", "cube.off", "--pin", "box"], ["resolve box.obj cube.off --pin box"]),
         (["*.glb"], ["ring.glb", "batch '*.glb'"]),
         (["*.stl"], ["box_flush.stl box_pushed.stl", "batch '*.stl'"]),
-        (["*.dae"], ["*.stl"]),
+        (["*.dae"], ["*.glb *.obj *.off *.stl"]),
         (["box", "Cube.off"], ["box.obj cube.off"]),
         (["box.obj", "boxflush.stl", "gone.ply"], ["box.obj box_flush.stl gone.ply"]),
         (["box.obj", "box.obj"], ["--split components box.obj"]),
@@ -109,6 +114,12 @@ def test_what_is_advised_works(typed: list[str], folder: Path) -> None:
             _, *words = expanded(line.strip(), folder)
             ran = satcheck(*words, cwd=folder)
             assert ran.code in (0, 1, 3), (line, ran.err)
+
+
+def test_a_misspelt_command_is_one_error(folder: Path) -> None:
+    said = satcheck("bacth", ".", cwd=folder).err
+    assert said.count("error:") == 1
+    assert said.startswith("satcheck: error: there is no command bacth\n")
 
 
 def test_a_length_has_no_space(folder: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable, Mapping
+from contextlib import chdir
 from functools import cache
 from pathlib import Path
 
@@ -85,7 +86,8 @@ def read_states(path: Path) -> None:
 
 
 def read_settings(path: Path) -> None:
-    nearest_config(path.parent)
+    with chdir(path.parent):
+        nearest_config()
     read_config(path)
 
 

@@ -1,5 +1,6 @@
 """CSV (RFC 4180) for spreadsheets: a row for each error of an input and for each finding that the
-reports list, the worst first. Columns that would be empty are left out.
+reports list, the worst first. Left out are columns that would be empty and, unless a report has one
+pair only, separated pairs whose gap was not asked for.
 
 A spreadsheet takes a cell that begins with one of `=+-@` for a formula, whatever its quotes. A text
 that begins so gets an apostrophe in front (OWASP, CSV Injection); numbers stay as they are. Texts
@@ -72,6 +73,9 @@ def _rows(report: Report) -> Iterator[tuple[tuple[float, ...], dict[str, Any]]]:
             file = issue.file or files.get(issue.body or "")
             yield (-1,), {**cells, "reason": issue.message, "file_a": file}
     for finding in report.findings:
+        has_answer = finding.distance is not None or finding.undecided is not None
+        if finding.relation == "separated" and len(report.findings) > 1 and not has_answer:
+            continue
         both = {"file_a": files[finding.a], "file_b": files[finding.b]}
         yield rank(finding), row_of(finding, report) | both
 

@@ -9,7 +9,15 @@ import numpy as np
 
 from satcheck import core
 from satcheck.audit.stages.contacts import contacts_of
-from satcheck.audit.words import figure, is_hit, number, place, short_names, with_unit
+from satcheck.audit.words import (
+    between_poses,
+    figure,
+    is_hit,
+    number,
+    place,
+    short_names,
+    with_unit,
+)
 from satcheck.cli.formats.picture.marks import sphere_around
 from satcheck.cli.formats.picture.rims import deciding_rim
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, Viewpoints
@@ -171,16 +179,18 @@ class Shows:
             labels.append(Label(text, np.array(finding.ball.centre), "ball"))
         if marks.way is not None:
             start, way = marks.way
-            labels.append(
-                Label(f"way out {figure(finding.depth_bounds, unit)}", start + way, "arrow")
-            )
+            moved = f"move {short_names(finding.a, finding.b)[0]}"
+            text = f"{moved} by {figure(finding.depth_bounds, unit)}"
+            labels.append(Label(text, start + way, "arrow"))
         if marks.gap is not None:
             length = float(np.linalg.norm(marks.gap[1] - marks.gap[0]))
             text = f"gap {with_unit(number(length), unit)}"
             labels.append(Label(text, (marks.gap[0] + marks.gap[1]) / 2, "gap"))
         if marks.hit is not None and finding.motion is not None:
-            at = ", ".join(place(each, unit) for each in finding.motion.at)
-            labels.append(Label(f"hit at {at}", marks.hit, "hit"))
+            at, poses = finding.motion.at, finding.motion.poses
+            text = f"hit at {', '.join(place(each, unit) for each in at)}"
+            text += "" if poses is None else between_poses(*poses)
+            labels.append(Label(text, marks.hit, "hit"))
         if marks.rim is not None:
             wide = with_unit(number(marks.rim.diameter), unit)
             hole = f"{marks.rim.which} of {short_names(marks.rim.body)[0]}"

@@ -436,6 +436,8 @@ def test_lengths_with_a_unit_need_declared_ones(tmp_path):
         ("[]", "json", ': not a scene file: "schema" is not "satcheck.scene/1"'),
         ('schema = "satcheck-scene-1"', "toml", "but 'satcheck-scene-1'"),
         ('schema = "satcheck.scene/2"', "toml", "but 'satcheck.scene/2'"),
+        ("[[rule]]\nallowed = true\n", "toml", "; rule is unknown (did you mean 'rules'?)"),
+        ("[[rules]]\nmax_depth = 2 mm\n", "toml", ":2: a length with a unit stands in quotes: "),
     ],
 )
 def test_what_is_no_scene_at_all(tmp_path, text, form, said):
