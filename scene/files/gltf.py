@@ -102,21 +102,25 @@ class _Scene:
         self._matrices: dict[int, Transform | None] = {}
 
     def read(self) -> Document:
-        paths = UniqueNames()
+        names = UniqueNames()
         placed = [
-            Instance(Shape.of(self._nodes[node.key]), matrix, paths.unique(path))
+            Instance(Shape.of(self._nodes[node.key]), matrix, names.unique(path))
             for node in self._placed(lambda number: self._nodes[number].mesh != NONE)
             for path, matrix in self._copies(node)
         ]
         meshes = {shape: self._mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
-        solid = [one for one in placed if not _without_surface(meshes[one.key])]
-        if not solid:
+        bare = {shape for shape, mesh in meshes.items() if _without_surface(mesh)}
+        if len(bare) == len(meshes):
             raise Refused("empty-mesh", "empty mesh: the scene has no triangles")
-        scene = raw_scene(solid, lambda shape: self._mesh_name(shape.mesh), meshes.__getitem__)
-        bare = [one.path for one in placed if _without_surface(meshes[one.key])]
+        scene = raw_scene(
+            [one for one in placed if one.key not in bare],
+            lambda shape: self._mesh_name(shape.mesh),
+            meshes.__getitem__,
+        )
         if not bare:
             return scene
-        message = f"{listed(bare)} without triangles: lines, points or nothing"
+        paths = [one.path for one in placed if one.key in bare]
+        message = f"{listed(paths)} without triangles: lines, points or nothing"
         return replace(scene, warnings=(("left-out", message),))
 
     def colliders(self, colliders: Colliders) -> Document:

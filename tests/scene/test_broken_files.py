@@ -170,7 +170,7 @@ REFUSED = {
     ),
     "moved.glb": (with_document(extensionsUsed=["CESIUM_RTC"]), "unsupported-feature", "RTC"),
     "sparse.glb": (with_document(accessors__0__sparse={}), "bad-record", "sparse"),
-    "types.glb": (with_document(nodes={"0": 1}), "bad-record", "list"),
+    "types.glb": (with_document(nodes={"0": 1}), "bad-record", "array"),
     "scale.glb": (
         with_document(nodes=[{"mesh": 0, "scale": [1, 0, 1]}]),
         "singular-transform",
