@@ -380,7 +380,7 @@ def option_named(name: str) -> Option:
     name = name.replace("-", "_")
     known = options()
     if name not in known:
-        _registry().add(map(_isolated, others("readers", KINDS)))
+        add_others()
         known = options()
     if name not in known:
         named = [f"{option.spelling} ({', '.join(titles)})" for option, titles in known.values()]
@@ -407,13 +407,14 @@ def options() -> dict[str, tuple[Option, list[str]]]:
 def _found(among: Mapping[str, T], key: str) -> T | None:
     """Other packages are asked only for what this one does not have."""
     if key and key not in among:
-        _registry().add(map(_isolated, others("readers", KINDS)))
+        add_others()
     return among.get(key)
 
 
-def _isolated(reader: Reader) -> Reader:
-    """Return the reader of another package, which runs in a child process: it may fail."""
-    return replace(reader, here=0)
+def add_others() -> None:
+    """Register the readers of other packages, which takes as long as a small check. They run in a
+    child process: they may fail."""
+    _registry().add(replace(reader, here=0) for reader in others("readers", KINDS))
 
 
 def kind_of(path: str) -> InputKind:

@@ -176,6 +176,21 @@ def test_an_option_of_its_reader_is_one_of_satcheck(tmp_path: Path, env: dict[st
         assert run("batch", "scene.toml", "-o", "r.jsonl", *words).code == code
 
 
+def test_it_is_in_the_help_of_all_options_and_in_the_schema(
+    tmp_path: Path, env: dict[str, str]
+) -> None:
+    """The short help does not load the readers of other packages."""
+
+    def run(*words: str) -> str:
+        return "".join(satcheck(*words, cwd=tmp_path, env=env).out.split())
+
+    for name in ("TETRA", "tetra-scale"):
+        assert (name in run("--help"), name in run("--help-all")) == (False, True)
+    assert "tetra-scale" in run("batch", "--help-all")
+    schema = json.loads(run("schema", "scene"))
+    assert schema["$defs"]["Reading"]["properties"]["tetra_scale"]["exclusiveMinimum"] == 0
+
+
 def test_results_of_another_state_of_it_are_not_kept(tmp_path: Path, env: dict[str, str]) -> None:
     """Its version stays the same, as it does while somebody writes it."""
     bodies = "".join(f'[[bodies]]\nid = "{k}"\nmesh = "{k}.tetra"\n' for k in ("a", "far"))
