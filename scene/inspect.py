@@ -78,6 +78,8 @@ def mesh_file(
     raw: the mesh as read. mesh: a piece of it; None: all. part: its name in the file. placed: the
     file itself places it. Raises what `errors_of` takes.
     """
+    if not raw.triangles:
+        raise Refused("empty-mesh", "empty mesh: no triangles")
     resolution = partial(resolution_of, raw)
     if mesh is None:
         examined = examine_bytes(raw.vertices, raw.triangles, resolution)

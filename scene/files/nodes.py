@@ -115,7 +115,7 @@ def _shapes_of(file: File, part: RawPart, said: list[tuple[str, str]], *, apart:
             if not isinstance(raw, RawMesh):
                 return [("", raw)]
             mesh = Mesh.from_bytes(raw.vertices, raw.triangles)
-            bodies = _components(file, part, raw, mesh) if apart else []
+            bodies = _components(file, part, raw, mesh) if apart and raw.triangles else []
             if not bodies:
                 whole = mesh_file(file, raw, mesh, part.name or None, placed=bool(part.name))
                 return [("", whole)]
@@ -164,6 +164,8 @@ def flattened(document: Document) -> RawMesh:
     placed: list[tuple[RawMesh, Transform | None]] = []
     for node in document.items:
         mesh = document.parts[node.number].mesh
+        if isinstance(mesh, RawMesh) and not mesh.triangles:
+            mesh = Refusal(NO_SURFACE, "a mesh without triangles is left out")
         if isinstance(mesh, RawMesh):
             placed.append((mesh, node.transform))
         elif not isinstance(mesh, Refusal):

@@ -140,6 +140,20 @@ def test_a_reader_that_fails_loses_its_file_alone(tmp_path: Path, env: dict[str,
     assert "the TETRA reader failed: KeyError" in ran.err
 
 
+@pytest.mark.parametrize("split", ["none", "nodes", "components"])
+@pytest.mark.parametrize("points", ["points", 'b""'])
+def test_a_mesh_without_triangles_is_empty(
+    points: str, split: str, tmp_path: Path, env: dict[str, str]
+) -> None:
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    module.write_text(module.read_text().replace("(points, triangles", f'({points}, b""'))
+    ran = satcheck(
+        "a.tetra", "b.tetra", "--split", split, "--format", "json", cwd=tmp_path, env=env
+    )
+    assert ran.code == 2
+    assert [issue["code"] for issue in ran.document["issues"]] == ["empty-mesh", "empty-mesh"]
+
+
 def test_the_line_of_a_refusal_is_said(tmp_path: Path, env: dict[str, str]) -> None:
     module = Path(env["PYTHONPATH"]) / "tetra.py"
     module.write_text(module.read_text().replace('{error}")', '{error}", line=7)'))
