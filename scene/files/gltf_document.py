@@ -12,7 +12,6 @@ import json
 import sys
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import suppress
 from typing import Annotated, Any, ClassVar, Generic, Literal, NoReturn, TypeVar
 
 import msgspec
@@ -63,7 +62,7 @@ class Table(Generic[Object]):
     """The objects of a list of the document, by their numbers. Raises Refused for one that is not
     there, or not of its type.
 
-    given: as the file has them. made: the same as their type; None: it is not of its type.
+    given: as the file has them. made: the same as their type; None: it is made where it is used.
     """
 
     def __init__(self, given: list[Any], kind: type[Object], made: list[Object | None]) -> None:
@@ -215,7 +214,7 @@ class Buffer(_Object, frozen=True, kw_only=True):
 
 
 class _Lists(_Object, frozen=True, kw_only=True):
-    """All of a document. None: an object that is not of its type."""
+    """All of a document; None: as of `Table`."""
 
     asset: Asset
     scene: Count = NONE
@@ -251,34 +250,13 @@ class GltfDocument:
 
 
 def _typed(tree: dict[str, Any]) -> _Lists:
+    """If one object is not of its type, all are made where they are used."""
     try:
         return msgspec.convert(tree, _Lists)
     except msgspec.ValidationError:
-        usable = {
-            key: [each if _is(each, kind) else None for each in tree[key]]
-            for key, kind in _KINDS.items()
-            if isinstance(tree.get(key), list)
-        }
-        return checked(tree | usable, _Lists, "glTF")
-
-
-_KINDS: dict[str, type[_Object]] = {
-    "scenes": Scene,
-    "nodes": Node,
-    "meshes": GltfMesh,
-    "accessors": Accessor,
-    "bufferViews": BufferView,
-    "buffers": Buffer,
-    "skins": GltfSkin,
-}
-
-
-def _is(given: Any, kind: type[_Object]) -> bool:
-    try:
-        msgspec.convert(given, kind)
-    except msgspec.ValidationError:
-        return False
-    return True
+        lists = {key: tree[key] for key in _LISTS if isinstance(tree.get(key), list)}
+        later = {key: [None] * len(objects) for key, objects in lists.items()}
+        return checked(tree | later, _Lists, "glTF")
 
 
 def _reasons(**names: str) -> dict[str, str]:
@@ -422,7 +400,16 @@ _INSIDE = {
     INSTANCING: (("attributes", "instance", ""),),
     DRACO: (("attributes", "attribute", ""),),
 }
-_LISTS = {key: kind.what for key, kind in _KINDS.items()} | {"materials": "material"}
+_LISTS = {
+    "scenes": "scene",
+    "nodes": "node",
+    "meshes": "mesh",
+    "accessors": "accessor",
+    "bufferViews": "buffer view",
+    "buffers": "buffer",
+    "skins": "skin",
+    "materials": "material",
+}
 
 
 def _look(given: Any, kind: str, place: str, unknown: UnknownNames) -> None:
@@ -492,14 +479,12 @@ def _tree(data: memoryview) -> Any:
     """The JSON, in which no key of an object occurs twice. msgspec reads it in a fifth of the time
     of `json`, but says nothing of such a key: the tree then holds fewer colons than the text."""
     text = bytes(data)
-    with suppress(ValueError, RecursionError):
+    try:
         tree = msgspec.json.decode(text)
         if b"\\u" not in text and text.count(b":") == msgspec.json.encode(tree).count(b":"):
             return tree
-    return _tree_or_why_not(data)
-
-
-def _tree_or_why_not(data: memoryview) -> Any:
+    except (ValueError, RecursionError):  # which `json` says in more words
+        pass
     try:
         return _JSON.decode(str(data, "utf-8").removeprefix("\ufeff"))
     except UnicodeDecodeError:
