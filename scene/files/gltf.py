@@ -110,8 +110,6 @@ class _Scene:
         ]
         meshes = {shape: self._mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
         bare = {shape for shape, mesh in meshes.items() if _without_surface(mesh)}
-        if len(bare) == len(meshes):
-            raise Refused("empty-mesh", "empty mesh: the scene has no triangles")
         scene = raw_scene(
             [one for one in placed if one.key not in bare],
             lambda shape: self._mesh_name(shape.mesh),

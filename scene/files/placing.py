@@ -132,9 +132,7 @@ def raw_scene(
 ) -> Document:
     """A scene with each part once, even if many nodes use it."""
     used: dict[Key, int] = {}
-    items = [
-        Item(used.setdefault(node.key, len(used)), node.path, node.matrix) for node in nodes
-    ]
+    items = [Item(used.setdefault(node.key, len(used)), node.path, node.matrix) for node in nodes]
     names = UniqueNames()
     parts = [RawPart(names.unique(name(key)), mesh(key)) for key in used]
     return Document(tuple(parts), tuple(items))
