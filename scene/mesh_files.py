@@ -69,10 +69,6 @@ class MeshFiles:
         self._terms = allowed.key
         self._known = known
         self._made: dict[Hashable, Any] = {}
-        self._start = os.getcwd()  # noqa: PTH109  many bodies share a path
-
-    def _absolute(self, location: StrPath) -> str:
-        return os.path.join(self._start, location)  # noqa: PTH118
 
     @cached_property
     def _children(self) -> ReadingChildren:
@@ -86,7 +82,7 @@ class MeshFiles:
 
     def document(self, path: str, location: StrPath, split: Split) -> Document | Refused:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
-        key = self._absolute(location), split
+        key = _absolute(location), split
         load = partial(self._load, path, location, split)
         if self._known is not None:
             load = partial(self._known.recall, (path, key, *self._terms), load)
@@ -123,7 +119,7 @@ class MeshFiles:
         mark of a convex hull, which may also stand alone."""
         path, location, part = named.path, named.location, named.part
         if part is not None and part.endswith(HULL_MARK):
-            hull: Item = self._once((self._absolute(location), part), partial(self._hull, named))
+            hull: Item = self._once((_absolute(location), part), partial(self._hull, named))
             return hull
         split: Split = (
             "none" if part is None else "components" if COMPONENT_MARK in part else "nodes"
@@ -134,7 +130,7 @@ class MeshFiles:
         if part is None:
             return loaded.items[0]
         by_path: dict[str, Item] = self._once(
-            (self._absolute(location), "by path", split),
+            (_absolute(location), "by path", split),
             lambda: {item.path or "": item for item in loaded.items},
         )
         if part in by_path:
@@ -167,7 +163,7 @@ class MeshFiles:
 
     def issues_of_parts(self, location: StrPath) -> tuple[Issue, ...]:
         """Return the issues that concern no single part of a file whose parts are read."""
-        place = self._absolute(location)
+        place = _absolute(location)
         made = [self._made.get((place, split)) for split in ("nodes", "components")]
         return next((each.issues for each in made if isinstance(each, Document)), ())
 
@@ -185,7 +181,7 @@ class MeshFiles:
         releases the GIL.
         """
         waiting = {
-            self._absolute(location): (path, location)
+            _absolute(location): (path, location)
             for path, location in given
             if _is_read_here(location) and _is_large(location)
         }
@@ -293,6 +289,10 @@ def _triangles(read: Document) -> int:
     """Each mesh counts for a little more than its triangles."""
     shapes = (item.shape for item in read.items)
     return sum(100 + shape.mesh.triangle_count for shape in shapes if isinstance(shape, MeshFile))
+
+
+def _absolute(location: StrPath) -> str:
+    return os.path.join(os.getcwd(), location)  # noqa: PTH109, PTH118  many bodies share a path
 
 
 def _reading(path: str, location: StrPath) -> AbstractContextManager[None]:
