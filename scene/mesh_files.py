@@ -17,6 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.plugins import function_at
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.document import COMPONENT_MARK, HULL_MARK, Document, FilePart, Item
@@ -108,7 +109,7 @@ class MeshFiles:
         """In this process, or in the child process, as its reader says. kind: of its documents."""
         if reader.here and file.size <= reader.here:
             with suppress(NeedsChild):
-                return reader.checked(reader.made_here(file))
+                return reader.checked(function_at(reader.read)(file))
         if reader.by_name:
             file = replace(file, data=b"")
         made = read_in_child(file, reader.read, kind, self._children, self.allowed)

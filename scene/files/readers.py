@@ -16,13 +16,13 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 from sys import float_info
-from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 from msgspec import Meta, Struct, ValidationError, convert
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
-from satcheck.core.plugins import failures, function_at, others, own
+from satcheck.core.plugins import failures, others, own
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
@@ -205,10 +205,6 @@ class Reader(Struct, frozen=True):
             else option.default
             for option in self.options
         }
-
-    def made_here(self, file: File) -> Document:
-        """Return what it makes of a file in this process. Raises Refused and NeedsChild."""
-        return cast("Document", function_at(self.read)(file))
 
     def checked(self, made: Document) -> Document:
         """Return a document that it has made, and what has to be said of all its documents. Raises
