@@ -74,12 +74,12 @@ def read_gltf(file: File) -> Document:
                 unknown.note(("colliders", ""), message)
             else:
                 warnings.append(("left-out", message))
-    if document.scene == NONE and len(document.scenes) > 1:
+    if document.stated.scene == NONE and len(document.scenes) > 1:
         message = "the file has several scenes and no default: only the first is read"
         unknown.note(("scene", ""), message)
     left_out = reader.left_out(unknown)
     warnings += unknown.warnings()
-    if document.animations or ANIMATING.intersection(document.extensions_used):
+    if document.stated.animations or ANIMATING.intersection(document.stated.extensions_used):
         warnings.append(("time-sampled", "the file is animated; checked as stored"))
     warnings += [("left-out", left_out)] if left_out else []
     return replace(scene, warnings=(*scene.warnings, *warnings))
@@ -105,7 +105,7 @@ class _Scene:
         names = UniqueNames()
         placed = [
             Instance(Shape.of(self._nodes[node.key]), matrix, names.unique(path))
-            for node in self._placed(lambda number: self._nodes[number].mesh != NONE)
+            for node in self._drawn
             for path, matrix in self._copies(node)
         ]
         meshes = {shape: self._mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
@@ -142,12 +142,7 @@ class _Scene:
 
     def left_out(self, unknown: UnknownNames) -> str:
         """Name the nodes with a mesh that the scene lacks, and count meshes without a node."""
-        drawn, waiting = set(), self._roots()
-        while waiting:
-            number = waiting.pop()
-            if number not in drawn:
-                drawn.add(number)
-                waiting += self._nodes[number].children
+        drawn = {node.key for node in self._drawn}
         used, lost = set(), []
         for number, node in enumerate(self._nodes):
             used.add(node.mesh)
@@ -161,6 +156,11 @@ class _Scene:
         said = [f"{listed(lost)} outside of the scene"] if lost else []
         said += [f"{listed(unused)} without a node"] if unused else []
         return "; ".join(said)
+
+    @cached_property
+    def _drawn(self) -> list[Instance[int]]:
+        """The nodes of the scene with a mesh."""
+        return self._placed(lambda number: self._nodes[number].mesh != NONE)
 
     def _placed(self, chosen: Callable[[int], bool]) -> list[Instance[int]]:
         """The chosen nodes of the scene, by their numbers, with world matrix and path."""
@@ -184,7 +184,7 @@ class _Scene:
         """Of the default scene; without scenes, the nodes that are no children."""
         document = self._document
         if document.scenes:
-            return list(document.scenes[max(document.scene, 0)].nodes)
+            return list(document.scenes[max(document.stated.scene, 0)].nodes)
         roots = [number for number in range(len(self._nodes)) if number not in self._parents]
         if self._nodes and not roots:
             raise Refused("reference-cycle", "every node is a child of another: a cycle")

@@ -231,11 +231,10 @@ class _Lists(_Object, frozen=True, kw_only=True):
 
 
 class GltfDocument:
-    """tree: of the JSON. Raises Refused if the objects are not in lists."""
+    """tree: of the JSON. stated: all of it. Raises Refused if the objects are not in lists."""
 
     def __init__(self, tree: dict[str, Any]) -> None:
-        lists = _typed(tree)
-        self.scene = lists.scene
+        self.stated = lists = _typed(tree)
         self.scenes = Table(tree.get("scenes", []), Scene, lists.scenes)
         self.nodes = Table(tree.get("nodes", []), Node, lists.nodes)
         self.meshes = Table(tree.get("meshes", []), GltfMesh, lists.meshes)
@@ -243,10 +242,6 @@ class GltfDocument:
         self.buffer_views = Table(tree.get("bufferViews", []), BufferView, lists.buffer_views)
         self.buffers = Table(tree.get("buffers", []), Buffer, lists.buffers)
         self.skins = Table(tree.get("skins", []), GltfSkin, lists.skins)
-        self.animations = lists.animations
-        self.extensions = lists.extensions
-        self.extensions_used = lists.extensions_used
-        self.extensions_required = lists.extensions_required
 
 
 def _typed(tree: dict[str, Any]) -> _Lists:
@@ -444,13 +439,14 @@ def read_document(data: memoryview, unknown: UnknownNames) -> GltfDocument:
         message = f"the file needs glTF version {asset.min_version!r}: {_VERSION} is read"
         raise Refused("unsupported-feature", message)
     document = GltfDocument(tree)
-    for name in document.extensions_required:
+    stated = document.stated
+    for name in stated.extensions_required:
         if not EXTENSIONS.knows(name):
             raise Refused("unsupported-feature", f"the file requires extension {name!r}")
-    for name in document.extensions_used:
+    for name in stated.extensions_used:
         if name in _MOVING:
             raise Refused("unsupported-feature", f"extension {name!r} is not read")
-    declared = list(dict.fromkeys((*document.extensions_used, *document.extensions_required)))
+    declared = list(dict.fromkeys((*stated.extensions_used, *stated.extensions_required)))
     unknown.look(EXTENSIONS, declared, "extension", "the file uses an extension")
     _look(tree, "file", "the file", unknown)
     _look(tree["asset"], "asset", "the asset", unknown)
