@@ -48,7 +48,7 @@ struct ReadError {
 
 using ReadOutcome = std::variant<MeshData, ReadError>;
 
-// Stable codes; scene/codes.py explains each in one sentence.
+// Stable codes; scene/issue.py explains each in one sentence.
 namespace code {
 inline constexpr const char* not_this_format = "not-this-format";
 inline constexpr const char* truncated = "truncated";
