@@ -20,10 +20,19 @@ from satcheck.scene.units import MICROMETRES
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
-def _spelled_options() -> str:
+def _about_read() -> str:
     known = options().values()
     spelled = sorted(option.spelling for option, _ in known if option is not GEOMETRY)
-    return f": {', '.join(spelled)}" if spelled else ""
+    named = f": {', '.join(spelled)}" if spelled else ""
+    return f"An option of the readers of some formats{named}. Repeatable."
+
+
+class _Read(click.Option):
+    """Its help names the options of the readers that are registered by then."""
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        self.help = _about_read()
+        return super().get_help_record(ctx)
 
 
 def _read(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict[str, OptionValue]:
@@ -56,10 +65,11 @@ outside = click.option(
 read = click.option(
     "--read",
     "reading",
+    cls=_Read,
     multiple=True,
     metavar="NAME=VALUE",
     callback=_read,
-    help=f"An option of the readers of some formats{_spelled_options()}. Repeatable.",
+    help=_about_read(),
 )
 
 

@@ -182,7 +182,7 @@ class Document(Struct, frozen=True, tag=True):
         if self.robot is not None:
             return  # items follow from its links
         if not self.items:
-            raise Refused("empty-mesh", "empty mesh: the file has no body")
+            raise Refused("empty-mesh", "empty mesh: nothing that the file places has triangles")
         if len(self.items) > 1 and len({item.path for item in self.items}) < len(self.items):
             raise Refused("reader-failed", "its reader gives two bodies one path")
         if not {item.number for item in self.items}.issubset(range(len(self.parts))):

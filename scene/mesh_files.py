@@ -17,6 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.plugins import function_at
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.document import COMPONENT_MARK, HULL_MARK, Document, FilePart, Item
@@ -33,7 +34,7 @@ from satcheck.scene.files.readers import (
     required_reader,
 )
 from satcheck.scene.files.reading_children import ReadingChildren, read_in_child
-from satcheck.scene.inspect import errors_of, remeshed, shape_file
+from satcheck.scene.inspect import ErrorsOf, remeshed, shape_file
 from satcheck.scene.issue import Issue
 from satcheck.scene.opening import (
     LARGE_FILE_BYTES,
@@ -99,7 +100,7 @@ class MeshFiles:
         return self._made[key]
 
     def _load(self, path: str, location: StrPath, split: Split) -> Document:
-        with _reading(path, location), errors_of(path):
+        with _reading(path, location), ErrorsOf(path):
             file = open_file(path, location, required_reader, self.allowed, whole=split == "none")
             reader = required_reader(suffix_of(location))
             return document_of(file, self._read(reader, file, Document), split)
@@ -108,7 +109,7 @@ class MeshFiles:
         """In this process, or in the child process, as its reader says. kind: of its documents."""
         if reader.here and file.size <= reader.here:
             with suppress(NeedsChild):
-                return reader.checked(reader.made_here(file))
+                return reader.checked(function_at(reader.read)(file))
         if reader.by_name:
             file = replace(file, data=b"")
         made = read_in_child(file, reader.read, kind, self._children, self.allowed)

@@ -15,7 +15,7 @@ from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
 from satcheck.scene.document import NumberFormat, RawMesh
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import File
-from satcheck.scene.inspect import STEPS, errors_of, mesh_file
+from satcheck.scene.inspect import STEPS, ErrorsOf, mesh_file
 
 if TYPE_CHECKING:
     import numpy as np
@@ -146,7 +146,7 @@ def _mesh_file(id_: str, vertices: Array, faces: Array) -> MeshFile:
         faces.astype("<u4", order="C", copy=False).data.cast("B"),
         _number_format(vertices),
     )
-    with errors_of(id_):
+    with ErrorsOf(id_):
         return mesh_file(File("memory", "", "", b"", 0, path=id_), raw)
 
 

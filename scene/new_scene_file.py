@@ -66,7 +66,7 @@ def new_scene_file(
     stated = document.Scene(
         schema=SCENE_1,
         units=scene.units or None,
-        reading=document.Reading(**reading) if reading else None,
+        reading=dict(sorted(reading.items())) or None,
         check_static=scene.check_static and any(body.static for body in scene.in_order()),
         ignore_within_groups=tuple(sorted(scene.ignore_within_groups)),
         accept=tuple(each.text for each in scene.accept if each.about is None),

@@ -64,7 +64,7 @@ class Selector(str):
 
     def __init__(self, text: str) -> None:
         if not self.glob:
-            raise _refused(f"the selector {text!r} is empty: give a glob of ids or groups")
+            raise bad_rule(f"the selector {text!r} is empty: give a glob of ids or groups")
 
     @property
     def text(self) -> str:
@@ -189,13 +189,13 @@ class Rule(RuleKeys, frozen=True, kw_only=True):
         for key in (*LENGTHS, "max_volume"):
             value = getattr(self, key)
             if value is not None and not (math.isfinite(value) and value >= 0):
-                raise _refused(f"{key} must be a finite number >= 0, not {value!r}")
+                raise bad_rule(f"{key} must be a finite number >= 0, not {value!r}")
             if value is not None and key in LENGTHS and value > LARGEST_LENGTH:
                 message = f"{key} must be at most {LARGEST_LENGTH:g}, not {value!r}"
                 raise SatcheckError("out-of-range", message)
         require_effect(self, KEYS)
         if self.allowed and any(getattr(self, key) is not None for key in KEYS if key != "allowed"):
-            raise _refused("an allowed pair is not checked: remove the other keys")
+            raise bad_rule("an allowed pair is not checked: remove the other keys")
 
     def scaled(self, scale: float) -> Rule:
         """The same rule in another unit: lengths times `scale`, the volume times its cube."""
@@ -238,9 +238,9 @@ def require_effect(rule: Any, keys: Sequence[str]) -> None:
     are those with an effect, is set."""
     if rule.severity not in (None, *SEVERITIES):
         names = ", ".join(SEVERITIES)
-        raise _refused(f"severity must be one of {names}, not {rule.severity!r}")
+        raise bad_rule(f"severity must be one of {names}, not {rule.severity!r}")
     if all(getattr(rule, key) is None for key in keys):
-        raise _refused(f"the rule has no effect: give it one of {', '.join(keys)}")
+        raise bad_rule(f"the rule has no effect: give it one of {', '.join(keys)}")
 
 
 def stated_keys(rule: object, keys: Sequence[str]) -> dict[str, Any]:
@@ -249,5 +249,5 @@ def stated_keys(rule: object, keys: Sequence[str]) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None}
 
 
-def _refused(message: str) -> SatcheckError:
+def bad_rule(message: str) -> SatcheckError:
     return SatcheckError("bad-rule", message)

@@ -14,7 +14,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.conventions import Vector
-from satcheck.core.errors import SatcheckError
 from satcheck.scene.files.readers import reader_named
 from satcheck.scene.rules import (
     Length,
@@ -23,6 +22,7 @@ from satcheck.scene.rules import (
     Selected,
     Selector,
     Severity,
+    bad_rule,
     require_effect,
     stated_keys,
 )
@@ -92,9 +92,9 @@ class BodyRule(BodyRuleKeys, frozen=True, kw_only=True):
         for key in ("density", "mass"):
             value = getattr(self, key)
             if value is not None and not (math.isfinite(value) and value > 0):
-                raise _refused(f"{key} must be a finite number > 0, not {value!r}")
+                raise bad_rule(f"{key} must be a finite number > 0, not {value!r}")
         if self.friction is not None and not (math.isfinite(self.friction) and self.friction >= 0):
-            raise _refused(f"friction must be a finite number >= 0, not {self.friction!r}")
+            raise bad_rule(f"friction must be a finite number >= 0, not {self.friction!r}")
         require_effect(self, EFFECTIVE_KEYS)
 
     def scaled(self, scale: float) -> BodyRule:
@@ -183,7 +183,7 @@ def joined_terms(stated: Sequence[StaticsTerms]) -> StaticsTerms:
     for terms in stated:
         for key, value in stated_keys(terms, StaticsTerms.__struct_fields__).items():
             if values.setdefault(key, value) != value:
-                raise _refused(f"two inputs state another {key} in [statics]: state it once")
+                raise bad_rule(f"two inputs state another {key} in [statics]: state it once")
     return StaticsTerms(**values)
 
 
@@ -213,7 +213,3 @@ def stated_terms(scene: Scene) -> StaticsTerms:
     of a mesh does not say where down is."""
     stated = scene.statics or StaticsTerms()
     return replace(stated, gravity=stated.gravity or down_of(scene))
-
-
-def _refused(message: str) -> SatcheckError:
-    return SatcheckError("bad-rule", message)

@@ -66,6 +66,10 @@ class _DefaultCommand(Command):
     def collect_usage_pieces(self, _: click.Context) -> list[str]:
         return ["[OPTIONS] A B [C ...]"]
 
+    def format_help_text(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        self.help = _help()
+        super().format_help_text(ctx, formatter)
+
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         del ctx
         with formatter.section("Other commands"):
@@ -121,7 +125,6 @@ units split sample explain version"""
     cls=_DefaultCommand,
     context_settings=HELP_NAMES,
     hidden=True,
-    help=_help(),
     daily=DAILY,
 )
 @option.paths("A B [C ...]")

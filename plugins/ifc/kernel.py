@@ -16,6 +16,7 @@ from msgspec import Struct
 from satcheck.core.transform import Transform
 from satcheck.plugins.ifc.elements import curved_bodies, material_of, rank_of
 from satcheck.plugins.ifc.failures import Failures, failures_in, logged
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import NO_SURFACE, RawMesh, Refusal
 from satcheck.scene.files.nodes import concatenate
 
@@ -28,7 +29,6 @@ _DEFAULT_PRECISION = 1e-5  # metres, of contexts that state none
 # The beginnings of types of representations without a surface.
 _CURVES = ("Annotation", "Curve", "GeometricCurveSet", "GeometricSet", "Point")
 _Made = tuple[bytes, bytes, Sequence[float]]  # vertices, triangles, matrix
-_IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Shape(Struct, frozen=True):
@@ -80,7 +80,7 @@ def _elements(model: Any, bodies: Sequence[Any], options: Mapping[str, Any]) -> 
 def _matrix(columns: Sequence[float]) -> Transform | None:
     """From the 16 numbers of the kernel, column by column."""
     rows = tuple(columns[4 * column + row] for row in range(4) for column in range(4))
-    return None if rows == _IDENTITY else rows
+    return None if rows == IDENTITY else rows
 
 
 def _whole(

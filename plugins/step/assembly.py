@@ -21,7 +21,7 @@ from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.gltf import placement_of
 from satcheck.scene.files.gltf_buffers import Accessors, Work, split_glb
-from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primitive, checked
+from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primitive
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
 from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
 from satcheck.scene.files.readers import File, imported
@@ -61,7 +61,7 @@ def read_step(file: File) -> Document:
     glb = _tessellated(data, options)
     text, chunk = split_glb(memoryview(glb))
     try:
-        document = checked(json.loads(str(text, "utf-8")), GltfDocument, "glTF")
+        document = GltfDocument(json.loads(str(text, "utf-8")))
     except ValueError:  # it writes numbers that are not finite as they are
         message = "OpenCascade turns it into coordinates that are infinite or no numbers"
         raise Refused("non-finite", message) from None

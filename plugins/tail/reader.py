@@ -48,8 +48,6 @@ def read_tail(file: File) -> Document:
     if said:
         raise Refused("bad-record", f"trimesh reads a part of it: {said[0]}")
     nodes = sorted(scene.graph.nodes_geometry)
-    if not nodes:
-        raise Refused("empty-mesh", "trimesh finds no triangles in it")
     units = unit_of(scene.units) if scene.units else None
     read = raw_scene(
         [Instance(*_placed(scene, node), str(node)) for node in nodes],

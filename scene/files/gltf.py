@@ -74,12 +74,12 @@ def read_gltf(file: File) -> Document:
                 unknown.note(("colliders", ""), message)
             else:
                 warnings.append(("left-out", message))
-    if document.scene == NONE and len(document.scenes) > 1:
+    if document.stated.scene == NONE and len(document.scenes) > 1:
         message = "the file has several scenes and no default: only the first is read"
         unknown.note(("scene", ""), message)
     left_out = reader.left_out(unknown)
     warnings += unknown.warnings()
-    if document.animations or ANIMATING.intersection(document.extensions_used):
+    if document.stated.animations or ANIMATING.intersection(document.stated.extensions_used):
         warnings.append(("time-sampled", "the file is animated; checked as stored"))
     warnings += [("left-out", left_out)] if left_out else []
     return replace(scene, warnings=(*scene.warnings, *warnings))
@@ -102,21 +102,23 @@ class _Scene:
         self._matrices: dict[int, Transform | None] = {}
 
     def read(self) -> Document:
-        paths = UniqueNames()
+        names = UniqueNames()
         placed = [
-            Instance(Shape.of(self._nodes[node.key]), matrix, paths.unique(path))
-            for node in self._placed(lambda number: self._nodes[number].mesh != NONE)
+            Instance(Shape.of(self._nodes[node.key]), matrix, names.unique(path))
+            for node in self._drawn
             for path, matrix in self._copies(node)
         ]
         meshes = {shape: self._mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
-        solid = [one for one in placed if not _without_surface(meshes[one.key])]
-        if not solid:
-            raise Refused("empty-mesh", "empty mesh: the scene has no triangles")
-        scene = raw_scene(solid, lambda shape: self._mesh_name(shape.mesh), meshes.__getitem__)
-        bare = [one.path for one in placed if _without_surface(meshes[one.key])]
+        bare = {shape for shape, mesh in meshes.items() if _without_surface(mesh)}
+        scene = raw_scene(
+            [one for one in placed if one.key not in bare],
+            lambda shape: self._mesh_name(shape.mesh),
+            meshes.__getitem__,
+        )
         if not bare:
             return scene
-        message = f"{listed(bare)} without triangles: lines, points or nothing"
+        paths = [one.path for one in placed if one.key in bare]
+        message = f"{listed(paths)} without triangles: lines, points or nothing"
         return replace(scene, warnings=(("left-out", message),))
 
     def colliders(self, colliders: Colliders) -> Document:
@@ -140,12 +142,7 @@ class _Scene:
 
     def left_out(self, unknown: UnknownNames) -> str:
         """Name the nodes with a mesh that the scene lacks, and count meshes without a node."""
-        drawn, waiting = set(), self._roots()
-        while waiting:
-            number = waiting.pop()
-            if number not in drawn:
-                drawn.add(number)
-                waiting += self._nodes[number].children
+        drawn = {node.key for node in self._drawn}
         used, lost = set(), []
         for number, node in enumerate(self._nodes):
             used.add(node.mesh)
@@ -159,6 +156,11 @@ class _Scene:
         said = [f"{listed(lost)} outside of the scene"] if lost else []
         said += [f"{listed(unused)} without a node"] if unused else []
         return "; ".join(said)
+
+    @cached_property
+    def _drawn(self) -> list[Instance[int]]:
+        """The nodes of the scene with a mesh."""
+        return self._placed(lambda number: self._nodes[number].mesh != NONE)
 
     def _placed(self, chosen: Callable[[int], bool]) -> list[Instance[int]]:
         """The chosen nodes of the scene, by their numbers, with world matrix and path."""
@@ -182,7 +184,7 @@ class _Scene:
         """Of the default scene; without scenes, the nodes that are no children."""
         document = self._document
         if document.scenes:
-            return list(document.scenes[max(document.scene, 0)].nodes)
+            return list(document.scenes[max(document.stated.scene, 0)].nodes)
         roots = [number for number in range(len(self._nodes)) if number not in self._parents]
         if self._nodes and not roots:
             raise Refused("reference-cycle", "every node is a child of another: a cycle")

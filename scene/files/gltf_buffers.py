@@ -44,6 +44,7 @@ _CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", _UINT32: "I", _FLOAT32: "f
 _UNSIGNED = frozenset("BHI")
 # componentType: the integer that means 1.0 in a normalized accessor.
 _LARGEST = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
+_SIZES = {code: array(code).itemsize for code in _CODES.values()}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
 if TYPE_CHECKING:
@@ -195,7 +196,7 @@ class Accessors:
             raise Refused("bad-record", f"{what}: {kind} expected")
         code, count, columns = _CODES[accessor.component_type], accessor.count, _COLUMNS[kind]
         self._work.spend(count * columns * _BYTES_OF_NUMBER)
-        row = columns * array(code).itemsize
+        row = columns * _SIZES[code]
         if accessor.buffer_view != NONE and not accessor.sparse:
             data, stride = self._range(accessor, what, count, row)
             return bytes(data), code, stride
@@ -277,8 +278,10 @@ class Accessors:
 
     def _packed(self, number: int) -> Meshopt | None:
         """The packed data of a view; None: it is not packed."""
-        view, where = self._views[number], f"buffer view {number}"
-        found = (view.extension(name, Meshopt, where) for name in MESHOPT)
+        view = self._views[number]
+        if not view.extensions:
+            return None
+        found = (view.extension(name, Meshopt, f"buffer view {number}") for name in MESHOPT)
         return next(filter(None, found), None)
 
     def _unpack(self, number: int, packed: Meshopt) -> bytes:

@@ -131,7 +131,8 @@ class Colliders:
 
     def _shape(self, name: str, number: int) -> Collider:
         where = f"shape {number}"
-        shapes = checked(self._document.extensions.get(name, {}).get("shapes", []), list[Any], name)
+        stated = self._document.stated.extensions.get(name, {})
+        shapes = checked(stated.get("shapes", []), list[Any], name)
         if not 0 <= number < len(shapes):
             message = f"{where} does not exist, there are {len(shapes)}"
             raise Refused("index-out-of-range", message)

@@ -71,7 +71,7 @@ class Meshes:
         self._meshes = document.meshes
         self._accessors = accessors
         self._work = work
-        self._requires_draco = DRACO in document.extensions_required
+        self._requires_draco = DRACO in document.stated.extensions_required
 
     def read(self, shape: Shape, skin: Skin | None) -> RawMesh:
         """All primitives with triangles, as one mesh.

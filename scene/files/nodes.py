@@ -27,7 +27,7 @@ from satcheck.scene.document import (
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.readers import File, reader_named
-from satcheck.scene.inspect import CRACK_WIDTH, errors_of, mesh_file, resolution_of
+from satcheck.scene.inspect import CRACK_WIDTH, ErrorsOf, mesh_file, resolution_of
 from satcheck.scene.issue import BLOCKING, issue
 from satcheck.scene.opening import name_of
 
@@ -111,11 +111,11 @@ def _shapes_of(file: File, part: RawPart, said: list[tuple[str, str]], *, apart:
     if isinstance(raw, Refusal):
         return [("", Refused(raw.code, where + raw.message, file=file.path))]
     try:
-        with errors_of(file.path):
+        with ErrorsOf(file.path):
             if not isinstance(raw, RawMesh):
                 return [("", raw)]
             mesh = Mesh.from_bytes(raw.vertices, raw.triangles)
-            bodies = _components(file, part, raw, mesh) if apart else []
+            bodies = _components(file, part, raw, mesh) if apart and raw.triangles else []
             if not bodies:
                 whole = mesh_file(file, raw, mesh, part.name or None, placed=bool(part.name))
                 return [("", whole)]
@@ -156,14 +156,16 @@ def flattened(document: Document) -> RawMesh:
     A mesh of lines or points only adds a warning. Raises Refused if another mesh cannot be
     used, or if all together exceed the triangle limit.
     """
-    if document.items == (Item(0),) and not document.warnings:
-        only = document.parts[0].mesh
-        if isinstance(only, RawMesh):
-            return only
+    first, *others = document.items
+    only = document.parts[first.number].mesh
+    if isinstance(only, RawMesh) and first.transform is None and not (others or document.warnings):
+        return only
     said = list(document.warnings)
     placed: list[tuple[RawMesh, Transform | None]] = []
     for node in document.items:
         mesh = document.parts[node.number].mesh
+        if isinstance(mesh, RawMesh) and not mesh.triangles:
+            mesh = Refusal(NO_SURFACE, "a mesh without triangles is left out")
         if isinstance(mesh, RawMesh):
             placed.append((mesh, node.transform))
         elif not isinstance(mesh, Refusal):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import Generic, TypeVar
 
 from msgspec import Struct
@@ -55,26 +55,32 @@ def instances(
     )
     paths = UniqueNames()
     placed = []
-    stack = list(_named("", roots, name))[::-1]
+    stack = _named("", None, roots, name)
     while stack:
         path, key, matrix = stack.pop()
         if has_mesh(key):
             placed.append(Instance(key, matrix, paths.unique(path)))
-        below = ((child, multiply(matrix, placement)) for child, placement in children(key))
-        stack.extend(list(_named(f"{path}/", below, name))[::-1])
+        if below := children(key):
+            stack += _named(f"{path}/", matrix, below, name)
     return placed
 
 
 def _named(
-    prefix: str, placed: Iterable[tuple[Key, Transform | None]], name: Callable[[Key], str]
-) -> Iterator[tuple[str, Key, Transform | None]]:
-    """Adds a path to each. Siblings with the same name are numbered."""
+    prefix: str,
+    outer: Transform | None,
+    placed: Sequence[tuple[Key, Transform | None]],
+    name: Callable[[Key], str],
+) -> list[tuple[str, Key, Transform | None]]:
+    """The path and the placement of each, the last one first. Siblings with the same name are
+    numbered. outer: where they are placed."""
     names = UniqueNames()
+    made = []
     for key, matrix in placed:
         path = prefix + names.unique(name(key))
         if len(path) > _LONGEST_PATH:
             path = _CUT + path[len(_CUT) - _LONGEST_PATH :]
-        yield path, key, matrix
+        made.append((path, key, multiply(outer, matrix)))
+    return made[::-1]
 
 
 def tidy_name(name: object, otherwise: str) -> str:
@@ -90,7 +96,7 @@ def tidy_name(name: object, otherwise: str) -> str:
 
 def refuse_explosion(
     roots: Sequence[Key],
-    within: Callable[[Key], Iterable[Key]],
+    within: Callable[[Key], Sequence[Key]],
     describe: Callable[[Key], str],
 ) -> None:
     """Counts the elements that references expand to, before any is created.
@@ -100,19 +106,20 @@ def refuse_explosion(
     """
     totals: dict[Key, int] = {}
     open_: set[Key] = set()
-    stack = [(root, False) for root in roots]
+    stack: list[tuple[Key, Sequence[Key] | None]] = [(root, None) for root in roots]
     while stack:
-        key, closing = stack.pop()
-        if closing:
+        key, below = stack.pop()
+        if below is not None:
             open_.discard(key)
-            total = 1 + sum(totals[child] for child in within(key))
+            total = 1 + sum([totals[child] for child in below])
             totals[key] = min(total, limits.MAX_PLACEMENTS + 1)  # 2^100 needs no more digits
         elif key in open_:
             raise Refused("reference-cycle", f"{describe(key)} contains itself: a cycle")
         elif key not in totals:
             open_.add(key)
-            stack.append((key, True))
-            stack.extend((child, False) for child in within(key))
+            below = within(key)
+            stack.append((key, below))
+            stack += [(child, None) for child in below]
     limits.refuse_many(
         sum(totals[root] for root in roots), "elements that its references expand to"
     )
@@ -124,12 +131,11 @@ def raw_scene(
     mesh: Callable[[Key], RawMesh | Refusal],
 ) -> Document:
     """A scene with each part once, even if many nodes use it."""
-    used = {key: place for place, key in enumerate(dict.fromkeys(node.key for node in nodes))}
+    used: dict[Key, int] = {}
+    items = [Item(used.setdefault(node.key, len(used)), node.path, node.matrix) for node in nodes]
     names = UniqueNames()
-    return Document(
-        parts=tuple(RawPart(names.unique(name(key)), mesh(key)) for key in used),
-        items=tuple(Item(used[node.key], node.path, node.matrix) for node in nodes),
-    )
+    parts = [RawPart(names.unique(name(key)), mesh(key)) for key in used]
+    return Document(tuple(parts), tuple(items))
 
 
 def multiply(outer: Transform | None, inner: Transform | None) -> Transform | None:

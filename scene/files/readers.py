@@ -16,13 +16,13 @@ from functools import cache
 from importlib import import_module
 from pathlib import Path
 from sys import float_info
-from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 from msgspec import Meta, Struct, ValidationError, convert
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
-from satcheck.core.plugins import failures, function_at, others, own
+from satcheck.core.plugins import failures, others, own
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
@@ -206,10 +206,6 @@ class Reader(Struct, frozen=True):
             for option in self.options
         }
 
-    def made_here(self, file: File) -> Document:
-        """Return what it makes of a file in this process. Raises Refused and NeedsChild."""
-        return cast("Document", function_at(self.read)(file))
-
     def checked(self, made: Document) -> Document:
         """Return a document that it has made, and what has to be said of all its documents. Raises
         Refused."""
@@ -380,7 +376,7 @@ def option_named(name: str) -> Option:
     name = name.replace("-", "_")
     known = options()
     if name not in known:
-        _registry().add(map(_isolated, others("readers", KINDS)))
+        add_others()
         known = options()
     if name not in known:
         named = [f"{option.spelling} ({', '.join(titles)})" for option, titles in known.values()]
@@ -407,13 +403,14 @@ def options() -> dict[str, tuple[Option, list[str]]]:
 def _found(among: Mapping[str, T], key: str) -> T | None:
     """Other packages are asked only for what this one does not have."""
     if key and key not in among:
-        _registry().add(map(_isolated, others("readers", KINDS)))
+        add_others()
     return among.get(key)
 
 
-def _isolated(reader: Reader) -> Reader:
-    """Return the reader of another package, which runs in a child process: it may fail."""
-    return replace(reader, here=0)
+def add_others() -> None:
+    """Register the readers of other packages, which takes as long as a small check. They run in a
+    child process: they may fail."""
+    _registry().add(replace(reader, here=0) for reader in others("readers", KINDS))
 
 
 def kind_of(path: str) -> InputKind:

@@ -57,8 +57,6 @@ class _Package:
         start = self._start_part()
         root = self._model(start)
         self._apply_config(root)
-        if not root.items:
-            raise Refused("empty-mesh", "empty mesh: the build has no items")
         nodes = instances(
             root.items,
             children=lambda key: self._object(*key).references,
@@ -66,8 +64,6 @@ class _Package:
             name=lambda key: self._object(*key).name,
             kind="object",
         )
-        if not nodes:
-            raise Refused("empty-mesh", "empty mesh: the build has no triangles")
         scene = raw_scene(
             nodes,
             lambda key: self._object(*key).name,

@@ -1,4 +1,4 @@
-// Functions that all readers share: errors, final checks, and numbers in binary files.
+// Functions that all readers share: errors, and numbers in binary files.
 #pragma once
 
 #include <algorithm>
@@ -36,13 +36,6 @@ ReadOutcome run_reader(Reader reader) {
 
 // Vertex numbers are stored in 32 bits.
 constexpr std::int64_t max_vertices = std::numeric_limits<std::uint32_t>::max();
-
-inline void require_triangles(const MeshData& mesh) {
-  if (!mesh.triangles.empty()) return;
-  fail(code::empty_mesh, mesh.vertices.empty() ? "empty mesh: no vertices and no triangles"
-                                               : "empty mesh: " + std::to_string(mesh.vertices.size() / 3) +
-                                                     " vertices but no triangles");
-}
 
 // A number in a file, for any byte order of the file and of the machine.
 template <class T>

@@ -18,7 +18,7 @@ namespace satcheck::scene {
 
 // Corners with equal coordinates, bit for bit, are one vertex. Vertices are numbered in order of first appearance.
 // A hash table with linear probing, whose slots can be fetched before they are needed. Its hashes start from a random
-// number, because a file could be made of corners whose hashes are all equal. The vertex numbers do not depend on it.
+// number of the process, because a file could be made of corners whose hashes are all equal. The vertex numbers do not depend on it.
 template <class Coordinate>
 class Corners {
  public:
@@ -85,8 +85,11 @@ class Corners {
   }
 
   static std::uint64_t random_number() {
-    std::random_device random;
-    return std::uint64_t{random()} << 32 | random();
+    static const std::uint64_t number = [] {
+      std::random_device random;
+      return std::uint64_t{random()} << 32 | random();
+    }();
+    return number;
   }
 
   std::uint64_t start_;

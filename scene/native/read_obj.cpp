@@ -186,7 +186,6 @@ class ObjReader {
       mesh_.warnings.push_back({code::unknown_statement, std::to_string(counts_) + (counts_ == 1 ? " line" : " lines") +
                                                              " of counts ignored (first: " + first_count_ + ")"});
     }
-    require_triangles(mesh_);
   }
 
   std::string_view bytes_;

@@ -165,11 +165,7 @@ class OffReader {
 }  // namespace
 
 ReadOutcome read_off(std::string_view bytes) {
-  return run_reader([&] {
-    MeshData mesh = OffReader(bytes).read();
-    require_triangles(mesh);
-    return mesh;
-  });
+  return run_reader([&] { return OffReader(bytes).read(); });
 }
 
 }  // namespace satcheck::scene

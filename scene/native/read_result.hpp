@@ -48,7 +48,7 @@ struct ReadError {
 
 using ReadOutcome = std::variant<MeshData, ReadError>;
 
-// Stable codes; scene/codes.py explains each in one sentence.
+// Stable codes; scene/issue.py explains each in one sentence.
 namespace code {
 inline constexpr const char* not_this_format = "not-this-format";
 inline constexpr const char* truncated = "truncated";
@@ -57,7 +57,6 @@ inline constexpr const char* count_mismatch = "count-mismatch";
 inline constexpr const char* bad_record = "bad-record";
 inline constexpr const char* non_finite = "non-finite";
 inline constexpr const char* index_out_of_range = "index-out-of-range";
-inline constexpr const char* empty_mesh = "empty-mesh";
 inline constexpr const char* unsupported_feature = "unsupported-feature";
 inline constexpr const char* too_large = "too-large";
 inline constexpr const char* short_face = "short-face";

@@ -289,23 +289,14 @@ MeshData read_pieces(std::size_t size, const NextBytes& next) {
   return reader.finish();
 }
 
-template <class Read>
-ReadOutcome with_triangles(Read read) {
-  return run_reader([&] {
-    MeshData mesh = read();
-    require_triangles(mesh);
-    return mesh;
-  });
-}
-
 }  // namespace
 
 ReadOutcome read_stl(std::string_view bytes) {
-  return with_triangles([&] { return read(bytes); });
+  return run_reader([&] { return read(bytes); });
 }
 
 ReadOutcome read_binary_stl(std::size_t size, const NextBytes& next) {
-  return with_triangles([&] { return read_pieces(size, next); });
+  return run_reader([&] { return read_pieces(size, next); });
 }
 
 }  // namespace satcheck::scene

@@ -1,4 +1,5 @@
-// Strict readers: the bytes of one file in, the mesh or the first defect out. Nothing is repaired silently.
+// Strict readers: the bytes of one file in, the mesh or the first defect out. Nothing is repaired silently. The mesh may be
+// empty.
 #pragma once
 
 #include <cstddef>

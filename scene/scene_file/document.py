@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 from msgspec import Meta, defstruct, field
 
@@ -250,13 +250,17 @@ class Motion(Table, frozen=True):
         return motion.PosePath(tuple(point.pose() for point in points))
 
 
-def reading_table() -> type[Table]:
-    """Return the table of the options that readers declare."""
+def reading_table(names: Iterable[str] = ()) -> type[Table]:
+    """Return the table of the options that readers declare, also those of other packages if one of
+    these names needs them."""
+    for name in names:
+        with suppress(SatcheckError):  # the table says so, and what was meant
+            option_named(name)
     known = {name: option for name, (option, _) in sorted(options().items())}
     about = "\n".join(
         f"    {name}: {option.help[0].upper()}{option.help[1:]}." for name, option in known.items()
     )
-    table: Any = defstruct(
+    table: type[Table] = defstruct(  # type: ignore[assignment]
         "Reading",
         [(name, option.type | None, None) for name, option in known.items()],
         bases=(Table,),
@@ -264,27 +268,11 @@ def reading_table() -> type[Table]:
         namespace={"__doc__": f"{_OF_READING}\n\n{about}\n"},
         kw_only=True,
     )
-    made: type[Table] = table
-    return made
-
-
-def reading_table_for(names: Iterable[str]) -> type[Table]:
-    """Return this table, also with the options of other packages if one of these names needs it."""
-    unknown = [name for name in names if name not in Reading.__struct_fields__]
-    if not unknown:
-        return Reading
-    for name in unknown:
-        with suppress(SatcheckError):  # the table says so, and what was meant
-            option_named(name)
-    return reading_table()
+    return table
 
 
 _OF_READING = """How mesh files are read where their format leaves a choice. Options of the command
     line override it."""
-if TYPE_CHECKING:
-    Reading = Table
-else:
-    Reading = reading_table()
 
 
 class RulesFile(Table, frozen=True, kw_only=True):
@@ -321,4 +309,4 @@ class Scene(RulesFile, frozen=True, kw_only=True):
     check_static: bool = False
     ignore_within_groups: Texts = ()
     motion: tuple[Motion, ...] = ()
-    reading: Reading | None = None
+    reading: dict[str, Any] | None = None

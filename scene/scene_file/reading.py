@@ -132,7 +132,7 @@ def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile])
     with text.at("reading"):
         if "reading" in inner:
             stated = values["reading"]
-            reading = converted(stated, document.reading_table_for(stated))
+            reading = converted(stated, document.reading_table(stated))
     text.raise_any()
     scene = top if isinstance(top, document.Scene) else None
     return scene_file(

@@ -8,8 +8,9 @@ from typing import Any
 
 from msgspec.json import schema_components
 
+from satcheck.scene.files.readers import add_others
 from satcheck.scene.rules import KEYS, RuleKeys
-from satcheck.scene.scene_file.document import RulesFile, Scene
+from satcheck.scene.scene_file.document import RulesFile, Scene, reading_table
 from satcheck.scene.statics import EFFECTIVE_KEYS as BODY_KEYS
 from satcheck.scene.statics import BodyRuleKeys
 from satcheck.scene.table import LARGEST, Table
@@ -18,7 +19,10 @@ _ABOUT_KEY = re.compile(r"^([$\w]+): (.*(?:\n    .*)*)$", re.MULTILINE)
 
 
 def schema() -> dict[str, Any]:
-    _, tables = schema_components((Scene, RuleKeys, BodyRuleKeys), ref_template="#/$defs/{name}")
+    """Return the schema, with the options of all readers, those of other packages included."""
+    add_others()
+    kinds = (Scene, RuleKeys, BodyRuleKeys, reading_table())
+    _, tables = schema_components(kinds, ref_template="#/$defs/{name}")
     for table in tables.values():
         _describe(table)
     for kind in Table.__subclasses__():
@@ -34,6 +38,7 @@ def schema() -> dict[str, Any]:
         },
     }
     scene = _plain(tables.pop("Scene"))
+    scene["properties"]["reading"] = {"$ref": "#/$defs/Reading"}
     del scene["required"]
     of_rules = RulesFile.__struct_encode_fields__
     rules_file = {"required": ["rules"], "propertyNames": {"enum": list(of_rules)}}

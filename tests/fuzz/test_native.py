@@ -35,7 +35,7 @@ def test_every_seed_is_a_mesh_or_an_error(name: str, seed: Any) -> None:
         assert outcome.code
         assert outcome.message.isprintable()
     else:
-        assert outcome.triangles.nbytes
+        assert outcome.triangles.nbytes % 12 == 0
 
 
 @pytest.mark.parametrize("mode", get_args(Mode))
@@ -90,8 +90,8 @@ def test_a_ply_of_many_records_without_properties() -> None:
     elements = "".join(f"element e{i} 4294967295\n" for i in range(10_000))
     header = f"ply\nformat binary_little_endian 1.0\n{elements}end_header\n"
     outcome = readers.read_ply(header.encode())
-    assert isinstance(outcome, readers.ReadError)
-    assert outcome.code == "empty-mesh"
+    assert isinstance(outcome, readers.MeshData)
+    assert not outcome.triangles.nbytes
 
 
 def test_a_polygon_whose_corners_are_all_in_a_line() -> None:

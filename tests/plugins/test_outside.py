@@ -140,6 +140,20 @@ def test_a_reader_that_fails_loses_its_file_alone(tmp_path: Path, env: dict[str,
     assert "the TETRA reader failed: KeyError" in ran.err
 
 
+@pytest.mark.parametrize("split", ["none", "nodes", "components"])
+@pytest.mark.parametrize("points", ["points", 'b""'])
+def test_a_mesh_without_triangles_is_empty(
+    points: str, split: str, tmp_path: Path, env: dict[str, str]
+) -> None:
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    module.write_text(module.read_text().replace("(points, triangles", f'({points}, b""'))
+    ran = satcheck(
+        "a.tetra", "b.tetra", "--split", split, "--format", "json", cwd=tmp_path, env=env
+    )
+    assert ran.code == 2
+    assert [issue["code"] for issue in ran.document["issues"]] == ["empty-mesh", "empty-mesh"]
+
+
 def test_the_line_of_a_refusal_is_said(tmp_path: Path, env: dict[str, str]) -> None:
     module = Path(env["PYTHONPATH"]) / "tetra.py"
     module.write_text(module.read_text().replace('{error}")', '{error}", line=7)'))
@@ -174,6 +188,21 @@ def test_an_option_of_its_reader_is_one_of_satcheck(tmp_path: Path, env: dict[st
     assert run("scene.toml", "--read", "tetra-scale=1").code == 0
     for words, code in (((), 1), (("--read", "tetra-scale=1", "--resume"), 0)):
         assert run("batch", "scene.toml", "-o", "r.jsonl", *words).code == code
+
+
+def test_it_is_in_the_help_of_all_options_and_in_the_schema(
+    tmp_path: Path, env: dict[str, str]
+) -> None:
+    """The short help does not load the readers of other packages."""
+
+    def run(*words: str) -> str:
+        return "".join(satcheck(*words, cwd=tmp_path, env=env).out.split())
+
+    for name in ("TETRA", "tetra-scale"):
+        assert (name in run("--help"), name in run("--help-all")) == (False, True)
+    assert "tetra-scale" in run("batch", "--help-all")
+    schema = json.loads(run("schema", "scene"))
+    assert schema["$defs"]["Reading"]["properties"]["tetra_scale"]["exclusiveMinimum"] == 0
 
 
 def test_results_of_another_state_of_it_are_not_kept(tmp_path: Path, env: dict[str, str]) -> None:

@@ -162,7 +162,7 @@ REFUSED = {
         "cycle",
     ),
     "node.glb": (with_document(scenes=[{"nodes": [5]}]), "index-out-of-range", "node 5"),
-    "no_triangles.glb": (with_document(nodes=[{}]), "empty-mesh", "no triangles"),
+    "no_triangles.glb": (with_document(nodes=[{}]), "empty-mesh", "nothing that the file places"),
     "extension.glb": (
         with_document(extensionsRequired=["EXT_unheard_of"]),
         "unsupported-feature",
@@ -170,7 +170,7 @@ REFUSED = {
     ),
     "moved.glb": (with_document(extensionsUsed=["CESIUM_RTC"]), "unsupported-feature", "RTC"),
     "sparse.glb": (with_document(accessors__0__sparse={}), "bad-record", "sparse"),
-    "types.glb": (with_document(nodes={"0": 1}), "bad-record", "list"),
+    "types.glb": (with_document(nodes={"0": 1}), "bad-record", "array"),
     "scale.glb": (
         with_document(nodes=[{"mesh": 0, "scale": [1, 0, 1]}]),
         "singular-transform",
@@ -193,7 +193,7 @@ REFUSED = {
     "text.3mf": (b"this is not a zip file", "not-this-format", "zip"),
     "no_model.3mf": (files.package_3mf({}), "missing-resource", "3dmodel.model"),
     "id.3mf": (files.threemf(items='<item objectid="14"/>'), "index-out-of-range", "'14'"),
-    "no_items.3mf": (files.threemf(items=""), "empty-mesh", "no items"),
+    "no_items.3mf": (files.threemf(items=""), "empty-mesh", "nothing that the file places"),
     "cycle.3mf": (
         files.threemf(
             files.components_3mf(1, '<component objectid="2"/>')

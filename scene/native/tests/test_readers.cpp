@@ -71,7 +71,7 @@ const Sample samples[] = {
 bool is_sound(const ReadOutcome& outcome) {
   const MeshData* mesh = std::get_if<MeshData>(&outcome);
   if (!mesh) return !std::get<ReadError>(outcome).code.empty();
-  if (mesh->vertices.size() % 3 != 0 || mesh->triangles.size() % 3 != 0 || mesh->triangles.empty()) return false;
+  if (mesh->vertices.size() % 3 != 0 || mesh->triangles.size() % 3 != 0) return false;
   for (std::uint32_t index : mesh->triangles) {
     if (index >= mesh->vertices.size() / 3) return false;
   }

@@ -24,7 +24,7 @@ inline bool is_one_plain_line(std::string_view text) {
 inline void check(const ReadError& error) { require(!error.code.empty() && is_one_plain_line(error.message)); }
 
 inline void check(const MeshData& mesh) {
-  require(mesh.vertices.size() % 3 == 0 && mesh.triangles.size() % 3 == 0 && !mesh.triangles.empty());
+  require(mesh.vertices.size() % 3 == 0 && mesh.triangles.size() % 3 == 0);
   for (const double c : mesh.vertices) require(std::isfinite(c));
   for (const std::uint32_t corner : mesh.triangles) require(corner < mesh.vertices.size() / 3);
   for (const Warning& warning : mesh.warnings) require(!warning.code.empty() && is_one_plain_line(warning.message));
