@@ -66,6 +66,7 @@ from satcheck.scene.units import (
 
 # The header of a body in TOML, or the first body of a list in JSON.
 _BODY = re.compile(rb'^\s*\[\[\s*bodies\s*\]\]|"bodies"\s*:\s*\[\s*\{', re.MULTILINE)
+_RULES = re.compile(rb'\[\[\s*rules\b|\brules"?\s*[=:]')
 
 if TYPE_CHECKING:
     from satcheck.scene.mesh_files import KnownMeshes
@@ -309,12 +310,12 @@ def is_rules(path: str, permitted: Permitted) -> bool:
 
 
 def has_only_rules(path: str, permitted: Permitted) -> bool:
-    """Return whether the input is a scene file with rules and without bodies. Raises
-    Refused."""
-    if kind_of(path) != "scene" or _BODY.search(read_whole(path, path, permitted.most)):
+    """Return whether the input is a scene file that states rules, if only an empty list, and no
+    bodies. Raises Refused."""
+    if kind_of(path) != "scene":
         return False
-    scene = _scene(path, permitted)
-    return bool(scene.rules or scene.body_rules) and not scene.items
+    data = read_whole(path, path, permitted.most)
+    return not _BODY.search(data) and bool(_RULES.search(data)) and not _scene(path, permitted).items
 
 
 def is_mesh(path: str) -> bool:

@@ -494,10 +494,12 @@ RULES = '[[rules]]\na = "box"\nb = "box_pushed"\nallowed = true\nreason = "a pre
 def test_a_file_of_rules_is_no_asset(assets: Path) -> None:
     header = 'schema = "satcheck.scene/1"\nbodies = []\n'
     (assets / "allowed.toml").write_text(header + RULES)
+    (assets / "nothing.toml").write_text(header + "rules = []\n")  # as suggest writes it
     (assets / "empty.toml").write_text(header)
     ran = satcheck("batch", ".", "--format", "json", cwd=assets)
     assert verdicts(ran.out) == {"gripper.glb": "fail", "box.obj": "pass", "empty.toml": "error"}
-    assert "allowed.toml has only rules and is no asset: --rules allowed.toml" in ran.err
+    for name in ("allowed.toml", "nothing.toml"):
+        assert f"{name} has only rules and is no asset: --rules {name}" in ran.err
     alone = satcheck("batch", "allowed.toml", cwd=assets)
     assert (alone.code, "no file is named" in alone.err) == (2, True)
 
