@@ -315,7 +315,9 @@ def has_only_rules(path: str, permitted: Permitted) -> bool:
     if kind_of(path) != "scene":
         return False
     data = read_whole(path, path, permitted.most)
-    return not _BODY.search(data) and bool(_RULES.search(data)) and not _scene(path, permitted).items
+    return (
+        not _BODY.search(data) and bool(_RULES.search(data)) and not _scene(path, permitted).items
+    )
 
 
 def is_mesh(path: str) -> bool:
