@@ -11,7 +11,7 @@ from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 from msgspec.structs import asdict
@@ -27,22 +27,12 @@ from satcheck.audit.batch.stored import INTERRUPTED, Stored, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli import exit_codes
 from satcheck.cli.format_option import Target
-from satcheck.cli.formats import worst_page
-from satcheck.cli.formats.assets import (
-    AssetReports,
-    Overview,
-    next_step,
-    overview,
-    summary_line,
-    written,
-)
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.option import names_of_lengths
 from satcheck.cli.output import Document, cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
-from satcheck.cli.worst_findings import Drawing, Illustrated, with_pictures, worst_findings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import Issue
@@ -51,6 +41,10 @@ from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import has_only_rules, read_rules
 from satcheck.scene.opening import STANDARD_INPUT, Permitted
 from satcheck.scene.words import listed
+
+if TYPE_CHECKING:
+    from satcheck.cli.formats.assets import Overview
+    from satcheck.cli.worst_findings import Drawing, Illustrated
 
 _LIMITS = Limits()
 # Of one asset. Each needs address space, which the limit of a process counts.
@@ -112,6 +106,9 @@ def check_worlds(
             talk(_summary(tally, results, is_alone=not to.targets))
         if results is not None and not to.targets:
             return code
+        from satcheck.cli.formats.assets import overview
+        from satcheck.cli.worst_findings import Drawing
+
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
         with StoredResults([Path(path)]) as stored:
@@ -175,6 +172,8 @@ def _run(
             results.finish()
         code = exit_codes.for_counts(tally.verdicts)
         if forgives and code == exit_codes.FINDINGS:
+            from satcheck.cli.formats.assets import overview
+
             with StoredResults([path]) as stored:
                 code = overview(each.asset for each in stored).exit_code(exit_zero=True)
     return tally, code
@@ -242,6 +241,10 @@ def deliver_assets(
     only_shown: bool = False,
 ) -> None:
     """Deliver documents about assets. only_shown: those that a table shows."""
+    from satcheck.cli.formats import worst_page
+    from satcheck.cli.formats.assets import AssetReports, written
+    from satcheck.cli.worst_findings import with_pictures, worst_findings
+
     assets = AssetReports(lambda: (each.asset for each in stored), len(stored))
     if only_shown:
         assets = AssetReports(lambda: seen.shown, len(seen.shown))
@@ -272,6 +275,8 @@ def _tell_errors(stored: Iterable[Stored]) -> None:
 
 def tell_assets(seen: Overview, to: Delivery) -> None:
     """Tell on stderr what no table on standard output says, and where the reports are."""
+    from satcheck.cli.formats.assets import next_step, summary_line
+
     files = [str(target.output) for target in to.targets if target.output is not None]
     if files or to.forms != {"table"}:
         for issue in seen.issues:
