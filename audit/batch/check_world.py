@@ -20,8 +20,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Loss, not_for_lack_of_memory
 from satcheck.core.steps import step
 from satcheck.report.assets import Asset, asset
-from satcheck.report.report import INTERNAL_ERROR, Issue, PairCounts, Report
-from satcheck.report.verdict import summarise
+from satcheck.report.report import INTERNAL_ERROR, RELATIONS, Issue, PairCounts, Report, Summary
 from satcheck.scene import Refused, Scene
 from satcheck.scene.foreign_formats import foreign_scene, is_foreign
 from satcheck.scene.mesh_files import KnownMeshes
@@ -75,13 +74,13 @@ def _line_of(error: SatcheckError) -> int | None:
 
 
 def _without_bodies(issues: Sequence[Issue]) -> Report:
-    settings = Settings()
     none = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
+    nothing_known = Summary("incomplete", none, dict.fromkeys(RELATIONS, 0))
     report = Report(
         tool=tool(),
         units=None,
-        settings=settings.stated(depth=False, thickness=False),
-        summary=summarise(none, (), settings.fail_on),
+        settings=Settings().stated(depth=False, thickness=False),
+        summary=nothing_known,
         bodies=(),
         findings=(),
         issues=tuple(issues),
