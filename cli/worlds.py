@@ -87,11 +87,7 @@ def check_worlds(
         threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
         how = {"slots": jobs, "wanted": Wanted(kept=results is not None, threads=threads)}
     check = partial(engine, options=terms, limits=limits, **how)
-    try:
-        temporary = TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
-    except OSError as error:
-        raise cannot_write("a temporary file", f"{error.strerror}: {_ELSEWHERE}") from None
-    with temporary as folder:
+    with _temporary_folder() as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
         stays, forgives = results is not None, to.exit_zero and not to.targets
         try:
@@ -106,28 +102,51 @@ def check_worlds(
             talk(_summary(tally, results, is_alone=not to.targets))
         if results is not None and not to.targets:
             return code
-        from satcheck.cli.formats.assets import overview
-        from satcheck.cli.worst_findings import Drawing
-
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
         with StoredResults([Path(path)]) as stored:
-            found = (each.asset for each in stored)
-            seen = overview(found, issues, top=to.top, compares=compares and not left)
-            drawing = Drawing(
-                allow_outside=inputs.allow_outside,
-                top=to.top or Drawing().top,
-                undrawn="interrupted" if left else "",  # each would take as long as a check
-            )
-            deliver_assets(document, seen, stored, to, drawing)
-            if to.quiet or Target("table", None) not in to.targets:
-                _tell_errors(stored)
+            seen = _delivered(document, stored, to, inputs, issues, left, compares=compares)
     if not to.quiet:
         tell_assets(seen, to)
     if left:
         talk(f"satcheck: {issues[0].message}")
         return exit_codes.INTERRUPTED
     return seen.exit_code(exit_zero=to.exit_zero)
+
+
+def _temporary_folder() -> TemporaryDirectory[str]:
+    try:
+        return TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
+    except OSError as error:
+        raise cannot_write("a temporary file", f"{error.strerror}: {_ELSEWHERE}") from None
+
+
+def _delivered(
+    document: Document,
+    stored: StoredResults,
+    to: Delivery,
+    inputs: Inputs,
+    issues: tuple[Issue, ...],
+    left: int,
+    *,
+    compares: bool,
+) -> Overview:
+    """Deliver the documents about stored results, and return what they show. left: worlds that are
+    not checked."""
+    from satcheck.cli.formats.assets import overview
+    from satcheck.cli.worst_findings import Drawing
+
+    found = (each.asset for each in stored)
+    seen = overview(found, issues, top=to.top, compares=compares and not left)
+    drawing = Drawing(
+        allow_outside=inputs.allow_outside,
+        top=to.top or Drawing().top,
+        undrawn="interrupted" if left else "",  # each would take as long as a check
+    )
+    deliver_assets(document, seen, stored, to, drawing)
+    if to.quiet or Target("table", None) not in to.targets:
+        _tell_errors(stored)
+    return seen
 
 
 def _run(

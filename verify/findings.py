@@ -54,13 +54,17 @@ class Proven:
     distance: Fraction | None
 
 
-def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
-    """Rejects an unproven finding of two readable bodies."""
+def _required_certificate(finding: Finding, a: Placed, b: Placed) -> Certificate:
     if a.reason is not None or b.reason is not None:
         raise Rejected(a.reason or b.reason or "a body is missing")
-    certificate = finding.certificate
-    if certificate is None:
+    if finding.certificate is None:
         raise Rejected("it has no certificate")
+    return finding.certificate
+
+
+def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
+    """Rejects an unproven finding of two readable bodies."""
+    certificate = _required_certificate(finding, a, b)
     check_id(finding)
     tolerance = check_tolerance(finding, a, b, request)
     check_figures(finding, a, b)
