@@ -71,19 +71,11 @@ def beside_baseline(
         for finding in report.findings
     )
     absent = (known for asset in assets for known in absent_from(report, baseline, asset))
-    stated = StatedBaseline(file, tuple(absent))
-    summary, fail_on = report.summary, report.settings.fail_on
-    judged = summarise(
-        summary.pairs,
-        findings,
-        fail_on,
-        issues=report.issues,
-        alone=report.alone,
-        answers=report.answers,
-    )
-    if summary.verdict == "pass":  # a baseline only excuses
-        judged = replace(summary, accepted=judged.accepted)
-    return with_messages(replace(report, findings=findings, baseline=stated, summary=judged))
+    beside = replace(report, findings=findings, baseline=StatedBaseline(file, tuple(absent)))
+    summary = summarise(beside)
+    if report.summary.verdict == "pass":  # a baseline only excuses
+        summary = replace(report.summary, accepted=summary.accepted)
+    return with_messages(replace(beside, summary=summary))
 
 
 def _if_accepted(

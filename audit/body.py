@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from _thread import RLock, allocate_lock  # threading takes longer to import
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic, TypeVar
-
-from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.settings import Settings
@@ -100,17 +99,6 @@ def mesh_key(file: MeshFile, *, is_open: bool) -> MeshKey:
     return file.path, file.sha256 or id(file.mesh), file.part, is_open
 
 
-class Work(Struct, frozen=True):
-    """Counts of the work done for the bodies of one file.
-
-    hierarchies: trees built. refits: trees fitted to placed vertices. decompositions: requested.
-    """
-
-    hierarchies: int
-    refits: int
-    decompositions: int
-
-
 class SharedMesh:
     """The data that all bodies with one mesh share, in file coordinates.
 
@@ -120,7 +108,6 @@ class SharedMesh:
     """
 
     __slots__ = (
-        "_decompositions",
         "covers_once",
         "decomposition",
         "file",
@@ -149,11 +136,12 @@ class SharedMesh:
         self.geometry = core.Geometry(
             file.mesh, file.health.solid, file.topology.plain_solid, is_open
         )
-        self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
-        self.has_sheets = Once(lambda: core.has_sheets(self.geometry.surface()))
-        self.decomposition = Once(lambda: self._decomposition(settings))
-        self.shape = Once(lambda: self._shape(is_open))
-        self._decompositions = 0
+        # None of these holds this object, so that it goes with its last body, not with a later
+        # search for cycles.
+        self.covers_once = Once(partial(_covers_once, self.geometry))
+        self.has_sheets = Once(partial(_has_sheets, self.geometry))
+        self.decomposition = Once(partial(_decomposition, file, settings))
+        self.shape = Once(partial(_shape, file, is_open))
 
     @staticmethod
     def terms(settings: Settings) -> tuple[object, ...]:
@@ -164,36 +152,40 @@ class SharedMesh:
             *(asked.part_seconds, asked.part_megabytes, asked.cache, asked.cache_directory),
         )
 
-    @property
-    def work(self) -> Work:
-        geometry = self.geometry
-        return Work(geometry.hierarchies, geometry.refits, self._decompositions)
 
-    def _shape(self, allow_open: bool) -> Shape:
-        """As the checker of certificates sees it."""
-        from satcheck.verify.bodies import shape_of
+def _covers_once(geometry: core.Geometry) -> bool:
+    return core.covers_once(geometry.surface())
 
-        return shape_of(self.file, allow_open=allow_open)
 
-    def _decomposition(self, settings: Settings) -> Decomposition | DecompositionError:
-        """A failure is kept, too, and not tried again for the next pair."""
-        from satcheck.decompose import Cache, DecompositionError, decompose, user_cache
+def _has_sheets(geometry: core.Geometry) -> bool:
+    return core.has_sheets(geometry.surface())
 
-        self._decompositions += 1
-        directory = settings.cache_directory
-        cache = user_cache() if directory is None else Cache(Path(directory))
-        try:
-            with step(f"splitting {self.file.path}"):
-                return decompose(
-                    self.file.mesh,
-                    threshold=settings.part_threshold,
-                    seed=settings.part_seed,
-                    seconds=settings.part_seconds,
-                    megabytes=settings.part_megabytes,
-                    cache=cache if settings.cache else None,
-                )
-        except DecompositionError as error:
-            return error
+
+def _shape(file: MeshFile, allow_open: bool) -> Shape:
+    """As the checker of certificates sees it."""
+    from satcheck.verify.bodies import shape_of
+
+    return shape_of(file, allow_open=allow_open)
+
+
+def _decomposition(file: MeshFile, settings: Settings) -> Decomposition | DecompositionError:
+    """A failure is kept, too, and not tried again for the next pair."""
+    from satcheck.decompose import Cache, DecompositionError, decompose, user_cache
+
+    directory = settings.cache_directory
+    cache = user_cache() if directory is None else Cache(Path(directory))
+    try:
+        with step(f"splitting {file.path}"):
+            return decompose(
+                file.mesh,
+                threshold=settings.part_threshold,
+                seed=settings.part_seed,
+                seconds=settings.part_seconds,
+                megabytes=settings.part_megabytes,
+                cache=cache if settings.cache else None,
+            )
+    except DecompositionError as error:
+        return error
 
 
 def _surface_tolerance(body: Body, setting: float | None) -> float:

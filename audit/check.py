@@ -37,10 +37,10 @@ from satcheck.report.report import (
     ENOUGH_FAILURES,
     OUTSIDE_REGION,
     REGION_OPEN,
-    BodyAnswer,
     Finding,
     Issue,
     Report,
+    Summary,
     all_allowed,
 )
 from satcheck.report.verdict import fails, summarise, truncated_of
@@ -85,13 +85,7 @@ def check(
     _refuse_two(scene, settings)
     require_settings(settings)
     scene = _loaded(scene, settings)
-    if scene.asks_for_support or scene.asks_for_regions:
-        least = 1
-    if len(scene.bodies) + len(scene.unreadable) < least:
-        few = "one body" if least == 1 else "two bodies"
-        errors = [each for each in scene.issues if each.severity == "error"]
-        why = f"; {errors[0].message}" if errors else ""
-        raise SatcheckError("too-few-bodies", f"a check needs {few} at least{why}")
+    _require_bodies(scene, least)
     if scene.joint_path is not None:  # many poses: figures on request only
         settings = replace(settings, depth=settings.depth or False)
     bodies = place(scene, settings, cache)
@@ -103,6 +97,30 @@ def check(
         bodies, close, planner, movers, progress, keep=cache is not None
     )
     examined = with_figures(examined, settings, keep=cache is not None)
+    return _report(scene, bodies, planner, movers, pairs, examined, unexamined)
+
+
+def _require_bodies(scene: Scene, least: int) -> None:
+    if scene.asks_for_support or scene.asks_for_regions:
+        least = 1
+    if len(scene.bodies) + len(scene.unreadable) < least:
+        few = "one body" if least == 1 else "two bodies"
+        errors = [each for each in scene.issues if each.severity == "error"]
+        why = f"; {errors[0].message}" if errors else ""
+        raise SatcheckError("too-few-bodies", f"a check needs {few} at least{why}")
+
+
+def _report(
+    scene: Scene,
+    bodies: PlacedBodies,
+    planner: Planner,
+    movers: Movers | None,
+    pairs: list[IndexPair],
+    examined: list[CheckedPair],
+    unexamined: int,
+) -> Report:
+    """Return the report of a scene. pairs: the close pairs; unexamined: the number of others."""
+    settings = planner.settings
     findings = _findings(bodies, pairs, examined, planner)
     counts = count(bodies, [pair.finding for pair in examined], findings, unexamined)
     pose = scene.posture.pose() if scene.posture else None
@@ -117,24 +135,11 @@ def check(
         *(issue for pair in examined for issue in pair.issues),
         *stopped_early(unexamined),
     ]
-    issues = issues_of(scene, bodies, counts, allowed, of_pairs, settings.accept)
-    answers: tuple[BodyAnswer, ...] = (
-        *(statics.findings if statics else ()),
-        *(regions.findings if regions else ()),
-    )
-    lone = len(bodies.placed) == len(bodies.ids) <= 1
     report = Report(
         tool=tool(),
         units=scene.units,
         settings=planner.stated(),
-        summary=summarise(
-            counts,
-            findings,
-            settings.fail_on,
-            issues=issues,
-            alone=allowed or lone or bool(regions),
-            answers=answers,
-        ),
+        summary=Summary("incomplete", counts, {}),  # what follows from the rest is not known yet
         reading=stated_reading(scene),
         bodies=body_reports(bodies),
         exempt=exempt_of(scene),
@@ -148,12 +153,12 @@ def check(
         motions=() if movers is None else movers.stated(),
         pose=pose,
         findings=tuple(findings),
-        issues=issues,
+        issues=issues_of(scene, bodies, counts, allowed, of_pairs, settings.accept),
         truncated=truncated_of(counts, findings),
         statics=statics,
         regions=regions,
     )
-    return with_messages(report)
+    return with_messages(replace(report, summary=summarise(report)))
 
 
 def _refuse_two(first: object, second: object) -> None:

@@ -11,7 +11,7 @@ from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import click
 
@@ -26,22 +26,12 @@ from satcheck.audit.batch.stored import INTERRUPTED, Stored, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli import exit_codes
 from satcheck.cli.format_option import Target
-from satcheck.cli.formats import worst_page
-from satcheck.cli.formats.assets import (
-    AssetReports,
-    Overview,
-    next_step,
-    overview,
-    summary_line,
-    written,
-)
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.option import names_of_lengths
 from satcheck.cli.output import Document, cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
-from satcheck.cli.worst_findings import Drawing, Illustrated, with_pictures, worst_findings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import Issue
@@ -50,6 +40,10 @@ from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import LoadOptions, has_only_rules, read_rules
 from satcheck.scene.opening import STANDARD_INPUT, Permitted
 from satcheck.scene.words import listed
+
+if TYPE_CHECKING:
+    from satcheck.cli.formats.assets import Overview
+    from satcheck.cli.worst_findings import Drawing, Illustrated
 
 _LIMITS = Limits()
 # Of one asset. Each needs address space, which the limit of a process counts.
@@ -88,11 +82,7 @@ def check_worlds(
         threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
         how = {"slots": jobs, "wanted": Wanted(kept=results is not None, threads=threads)}
     check = partial(engine, options=terms, limits=limits, **how)
-    try:
-        temporary = TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
-    except OSError as error:
-        raise cannot_write("a temporary file", f"{error.strerror}: {_ELSEWHERE}") from None
-    with temporary as folder:
+    with _temporary_folder() as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
         stays, forgives = results is not None, to.exit_zero and not to.targets
         try:
@@ -135,6 +125,9 @@ def _deliver(
 ) -> Overview:
     """Write the documents of a file of results. undrawn: after Ctrl-C, as each picture would take
     as long as a check."""
+    from satcheck.cli.formats.assets import overview
+    from satcheck.cli.worst_findings import Drawing
+
     with StoredResults([results]) as stored:
         found = (each.asset for each in stored)
         seen = overview(found, issues, top=to.top, compares=compares)
@@ -149,6 +142,13 @@ def _deliver(
     if not to.quiet:
         tell_assets(seen, to)
     return seen
+
+
+def _temporary_folder() -> TemporaryDirectory[str]:
+    try:
+        return TemporaryDirectory(prefix="satcheck-", ignore_cleanup_errors=True)
+    except OSError as error:
+        raise cannot_write("a temporary file", f"{error.strerror}: {_ELSEWHERE}") from None
 
 
 def _run(
@@ -193,6 +193,8 @@ def _run(
             results.finish()
         code = exit_codes.for_counts(tally.verdicts)
         if forgives and code == exit_codes.FINDINGS:
+            from satcheck.cli.formats.assets import overview
+
             with StoredResults([path]) as stored:
                 code = overview(each.asset for each in stored).exit_code(exit_zero=True)
     return tally, code
@@ -260,6 +262,10 @@ def deliver_assets(
     only_shown: bool = False,
 ) -> None:
     """Deliver documents about assets. only_shown: those that a table shows."""
+    from satcheck.cli.formats import worst_page
+    from satcheck.cli.formats.assets import AssetReports, written
+    from satcheck.cli.worst_findings import with_pictures, worst_findings
+
     assets = AssetReports(lambda: (each.asset for each in stored), len(stored))
     if only_shown:
         assets = AssetReports(lambda: seen.shown, len(seen.shown))
@@ -290,6 +296,8 @@ def _tell_errors(stored: Iterable[Stored]) -> None:
 
 def tell_assets(seen: Overview, to: Delivery) -> None:
     """Tell on stderr what no table on standard output says, and where the reports are."""
+    from satcheck.cli.formats.assets import next_step, summary_line
+
     files = [str(target.output) for target in to.targets if target.output is not None]
     if files or to.forms != {"table"}:
         for issue in seen.issues:

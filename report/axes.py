@@ -15,8 +15,6 @@ HullRelation = Literal["separated", "touching", "penetrating", "indeterminate"]
 Place = Annotated[int, Meta(ge=1)]
 # The least and the greatest coordinate along an axis.
 Shadow = tuple[float, float]
-# Of A and of B.
-Counts = tuple[Count, Count]
 
 
 class AxesBody(Value, frozen=True):

@@ -126,6 +126,8 @@ class RuleBook:
                     yield i, j
 
     def terms(self, i: int, j: int) -> Terms:
+        if not self.rules:
+            return {}
         pair = (i, j) if i < j else (j, i)
         named = self._named.get(pair)
         if named is not None:

@@ -11,9 +11,9 @@ from satcheck.report.report import (
     SEVERITIES,
     BodyAnswer,
     Finding,
-    Issue,
     PairCounts,
     Relation,
+    Report,
     Severity,
     Summary,
     Truncated,
@@ -62,17 +62,10 @@ def unlisted_indeterminate(counts: PairCounts, findings: Sequence[Finding]) -> i
     return counts.indeterminate - sum(f.relation == "indeterminate" for f in findings)
 
 
-def summarise(
-    counts: PairCounts,
-    findings: Sequence[Finding],
-    fail_on: FailOn,
-    *,
-    issues: Sequence[Issue] = (),
-    alone: bool = False,
-    answers: Sequence[BodyAnswer] = (),
-) -> Summary:
-    """alone: no pair has to be checked, as of `Report.alone`. answers: to questions about single
-    bodies."""
+def summarise(report: Report) -> Summary:
+    """Return the summary that follows from the rest of a report, and from its counts of pairs."""
+    counts, findings, answers = report.summary.pairs, report.findings, report.answers
+    fail_on = report.settings.fail_on
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
     unlisted_open = unlisted_indeterminate(counts, findings)
     by_relation["separated"] += _unlisted(counts, findings) - unlisted_open
@@ -84,9 +77,9 @@ def summarise(
     elif (
         unlisted_open
         or any(f.undecided is not None and f.baseline_state != "accepted" for f in findings)
-        or not (counts.asked or alone)  # a check without pairs never passes
+        or not (counts.asked or report.alone)  # a check without pairs never passes
         or any(answer.answer == "open" for answer in answers)
-        or any(issue.state == "blocking" for issue in issues)
+        or any(issue.state == "blocking" for issue in report.issues)
     ):
         verdict = "incomplete"
     return Summary(

@@ -8,10 +8,10 @@ import re
 import subprocess
 from collections import defaultdict
 from collections.abc import Iterable
+from html import escape
 from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import quote
-from xml.sax.saxutils import escape
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import content_of
@@ -113,7 +113,8 @@ class _Names:
 def _spellings(name: str) -> set[bytes]:
     """A name as plain text, as a URI, as in JSON and TOML, and as in XML."""
     as_json = (json.dumps(name, ensure_ascii=ascii)[1:-1] for ascii in (True, False))
-    texts = (name, quote(os.fsencode(name)), *as_json, escape(name, {'"': "&quot;"}))
+    as_xml = escape(name, quote=False).replace('"', "&quot;")
+    texts = (name, quote(os.fsencode(name)), *as_json, as_xml)
     return {os.fsencode(text) for text in texts}
 
 

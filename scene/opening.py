@@ -177,13 +177,15 @@ class FilesRead:
     def __iter__(self) -> Iterator[str]:
         return iter(self._signatures)
 
+    def __contains__(self, name: str) -> bool:
+        return name in self._signatures
+
     def signature(self, name: str) -> Signature:
         """When it was noted."""
         return self._signatures[name]
 
-    def add(self, name: str) -> None:
-        if name not in self._signatures:
-            self._signatures[name] = signature(name)
+    def add(self, name: str, at: Signature) -> None:
+        self._signatures.setdefault(name, at)
 
     def add_digest(self, name: str, digest: str) -> None:
         self._digests[name] = digest
@@ -201,8 +203,9 @@ class FilesRead:
         return not self._lost and all(signature(name) == at for name, at in known)
 
     def are_settled(self) -> bool:
-        """Whether they are certain, and each later change will show in a signature."""
-        return all(map(self.is_settled, self)) and self.are_certain()
+        """Whether these are all files, and each change since they were noted will show in a
+        signature."""
+        return not self._lost and all(map(self.is_settled, self))
 
     def is_settled(self, name: str) -> bool:
         at = self._signatures[name]
@@ -218,8 +221,12 @@ _listening: list[FilesRead] = []
 
 def note(location: str | Path) -> None:
     """location: of a file that the answer depends on, even if it is not there."""
+    if not _listening:
+        return
+    name, outermost = os.fspath(location), _listening[0]
+    at = outermost.signature(name) if name in outermost else signature(name)
     for listener in _listening:
-        listener.add(str(location))
+        listener.add(name, at)
 
 
 def _note_digest(location: StrPath, digest: str) -> None:

@@ -25,7 +25,6 @@ from satcheck.verify.distances import (
 from satcheck.verify.exact import Point, Rejected, dot, root
 from satcheck.verify.excuse import is_explained
 from satcheck.verify.figures import (
-    EXACT_WIDTH,
     Rounding,
     check_figures,
     check_id,
@@ -54,13 +53,17 @@ class Proven:
     distance: Fraction | None
 
 
-def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
-    """Rejects an unproven finding of two readable bodies."""
+def _required_certificate(finding: Finding, a: Placed, b: Placed) -> Certificate:
     if a.reason is not None or b.reason is not None:
         raise Rejected(a.reason or b.reason or "a body is missing")
-    certificate = finding.certificate
-    if certificate is None:
+    if finding.certificate is None:
         raise Rejected("it has no certificate")
+    return finding.certificate
+
+
+def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
+    """Rejects an unproven finding of two readable bodies."""
+    certificate = _required_certificate(finding, a, b)
     check_id(finding)
     tolerance = check_tolerance(finding, a, b, request)
     check_figures(finding, a, b)
@@ -279,24 +282,16 @@ def _is_short(move: Point, band: Fraction) -> bool:
 def check_mtv(finding: Finding, certificate: Certificate, a: Placed, b: Placed) -> bool:
     """A, moved by the MTV with one rounding of each coordinate, has no common interior with B.
 
-    The MTV is longer than the depth by some rounding, because it is lengthened until the rounded
-    coordinates are free. Returns False if the finding does not claim this, or if it is not
-    certified.
+    `check_figures` has checked that an overlap has the MTV, and that it is as long as the depth.
+    Returns False if the finding does not claim this, or if it is not certified.
     """
-    if finding.mtv_verified is not True:
+    if finding.mtv_verified is not True or finding.mtv is None:
         return False
-    if finding.exact_relation not in OVERLAPS:
-        raise Rejected("only an overlap has a way out")
-    if finding.depth is None or finding.mtv is None:
-        raise Rejected("a verified MTV comes with its depth")
-    depth, move = Fraction(finding.depth), vector(finding.mtv)
-    if dot(move, move) > (depth + EXACT_WIDTH * (depth + rounding_of(a, b).largest)) ** 2:
-        raise Rejected("the MTV is longer than the depth")
     if isinstance(certificate.mtv, UnsetType):
         if curve_error(a, b):
             return False
         raise Rejected("the certificate has no 'mtv'")
-    prove_way_out(move, certificate.mtv, a, b)
+    prove_way_out(vector(finding.mtv), certificate.mtv, a, b)
     return True
 
 

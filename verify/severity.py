@@ -86,10 +86,8 @@ def check_summary(
             raise Rejected(f"the summary counts {count!r} pairs as {key}, not {follows!r}")
     if stated.pruned != pruned and not (pruned == 0 and stated.pruned <= listed_apart):
         raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
-    fail_on, issues, answers = report.settings.fail_on, report.issues, report.answers
-    expected = summarise(
-        pairs, findings, fail_on, issues=issues, alone=report.alone, answers=answers
-    )
+    summary = replace(report.summary, pairs=pairs)
+    expected = summarise(replace(report, findings=tuple(findings), summary=summary))
     for key in Summary.__struct_fields__:
         if getattr(report.summary, key) != (follows := getattr(expected, key)):
             raise Rejected(f"the summary's {key} that follows from the findings is {follows!r}")
@@ -98,7 +96,7 @@ def check_summary(
     if (0 if truncated is None else truncated.pairs) != pruned + left_open:
         raise Rejected(f"the findings leave out {pruned + left_open} pairs")
     for finding in findings:  # those that fail have a state if there is a baseline, and no others
-        has_state = report.baseline is not None and fails(finding, fail_on)
+        has_state = report.baseline is not None and fails(finding, report.settings.fail_on)
         if report.baseline and finding.undecided and finding.baseline_state == "accepted":
             continue
         if (finding.baseline_state is not None) != has_state:

@@ -20,12 +20,11 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Loss, not_for_lack_of_memory
 from satcheck.core.steps import step
 from satcheck.report.assets import Asset, asset
-from satcheck.report.report import INTERNAL_ERROR, Issue, PairCounts, Report
-from satcheck.report.verdict import summarise
+from satcheck.report.report import INTERNAL_ERROR, RELATIONS, Issue, PairCounts, Report, Summary
 from satcheck.scene import Refused, Scene
 from satcheck.scene.foreign_formats import foreign_scene, is_foreign
 from satcheck.scene.mesh_files import KnownMeshes
-from satcheck.scene.opening import exists, is_folder
+from satcheck.scene.opening import exists, is_folder, suffix_of
 from satcheck.scene.words import meant
 
 # Why a file that is as it should be has no body that can collide.
@@ -37,10 +36,6 @@ def foreign_worlds(files: Mapping[str, Sequence[str]]) -> list[World]:
     """Return a world for each folder that has files which no reader knows: the folder, and these.
     Its check says that they are not read."""
     return [(folder, *names) for folder, names in files.items() if names]
-
-
-def _is_foreign(world: World) -> bool:
-    return len(world) > 1 and is_folder(world[0]) and all(map(is_foreign, world[1:]))
 
 
 def check_world(world: World, options: CheckOptions, *, known: KnownMeshes | None = None) -> Asset:
@@ -79,13 +74,13 @@ def _line_of(error: SatcheckError) -> int | None:
 
 
 def _without_bodies(issues: Sequence[Issue]) -> Report:
-    settings = Settings()
     none = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
+    nothing_known = Summary("incomplete", none, dict.fromkeys(RELATIONS, 0))
     report = Report(
         tool=tool(),
         units=None,
-        settings=settings.stated(depth=False, thickness=False),
-        summary=summarise(none, (), settings.fail_on),
+        settings=Settings().stated(depth=False, thickness=False),
+        summary=nothing_known,
         bodies=(),
         findings=(),
         issues=tuple(issues),
@@ -115,7 +110,7 @@ def _beside(report: Report, file: str, baseline: Path) -> Report:
 
 
 def _load(world: World, options: CheckOptions, known: KnownMeshes | None) -> Scene:
-    if _is_foreign(world):
+    if len(world) > 1 and is_folder(world[0]) and all(map(is_foreign, world[1:])):
         return foreign_scene(world[0], world[1:])
     _refuse_folder(world[0])
     scene = _without_libraries(world[0], options.load(world, known=known))
@@ -140,14 +135,14 @@ def _without_libraries(file: str, scene: Scene) -> Scene:
 def _refuse_folder(name: str) -> None:
     """Only a folder that cannot be listed is among the assets, or one that does not exist."""
     try:
-        if not exists(name) and not Path(name).suffix:
+        if is_folder(name):
+            next(Path(name).iterdir(), None)
+        elif not suffix_of(name) and not exists(name):
             parent = Path(name).parent
             near = meant(
                 Path(name).name, [p.name for p in parent.iterdir()] if parent.is_dir() else ()
             )
             raise SatcheckError("file-not-found", f"no such file or folder{near}", file=name)
-        if is_folder(name):
-            next(Path(name).iterdir(), None)
     except OSError as error:
         raise SatcheckError(
             "unreadable-folder", f"the folder cannot be listed: {error.strerror}", file=name
@@ -159,6 +154,8 @@ def without_unused_rules(given: Asset, files: Collection[str]) -> tuple[Asset, t
     such rules are about many assets, and need not be about this one. An asset that could not be
     loaded may need them."""
     unused = tuple(i for i in given.report.issues if _is_unused_rule(i, files))
+    if not unused:
+        return given, ()
     issues = tuple(i for i in given.report.issues if i not in unused)
     kept = asset(given.file, replace(given.report, issues=issues))
     return kept, unused if given.report.bodies else ()

@@ -79,18 +79,32 @@ class Moments(Struct, frozen=True):
     rates: Numbers
     slides: Numbers
     centres: Numbers
+    travel: JointTravel
+
+    def placements(self, bodies: Sequence[str]) -> Numbers:
+        """Return the placements of these bodies, shape (moments, bodies, 12)."""
+        return self.matrices.take([self.travel.place[body] for body in bodies], axis=1)
+
+    def between(self, half: Numbers, a: str, b: str) -> Numbers:
+        """Return an upper bound of how far two bodies move towards each other in a time `half`
+        before or after each moment, rounding included."""
+        travel = self.travel
+        only_a, only_b = travel.relative(a, b)
+        speed_a, _ = travel.fastest(self, half, travel.place[a], only_a)
+        speed_b, _ = travel.fastest(self, half, travel.place[b], only_b)
+        return (speed_a + speed_b) * half * _ROUNDED_UP + 2 * travel.pad
 
 
 class JointTravel:
     """around: a ball around each body of the scene, see `ball_around`. pad: how far rounding moves
-    a point. times: of the poses of the path. steady: see
+    a point. times: of the poses of the path. place: of each body in the scene. steady: see
     `TrackTravel`."""
 
     steady = False
 
     def __init__(self, scene: Scene, path: JointPath, around: Sequence[Ball]) -> None:
         self._scene, self.path, self.times = scene, path, path.times
-        self._place = {body.id: k for k, body in enumerate(scene.bodies)}
+        self.place = {body.id: k for k, body in enumerate(scene.bodies)}
         self._centres = np.array([centre for centre, _ in around]).reshape(-1, 3)
         self._radii = [radius for _, radius in around]
         self._joints = [
@@ -115,7 +129,7 @@ class JointTravel:
 
     def moves(self, a: str, b: str) -> bool:
         """Return whether two bodies move relative to each other."""
-        return set(self._above[self._place[a]]) != set(self._above[self._place[b]])
+        return set(self._above[self.place[a]]) != set(self._above[self.place[b]])
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over the whole path."""
@@ -123,22 +137,22 @@ class JointTravel:
 
     def relative(self, a: str, b: str) -> tuple[list[int], list[int]]:
         """The joints that move two bodies in the frame that the joints above both carry."""
-        of_a, of_b = (self._above[self._place[body]] for body in (a, b))
+        of_a, of_b = (self._above[self.place[body]] for body in (a, b))
         return [j for j in of_a if j not in of_b], [j for j in of_b if j not in of_a]
 
     def ways(self, a: str, b: str) -> tuple[Track | JointWay, Track | JointWay]:
         """The motions of two bodies in that frame."""
         only_a, only_b = self.relative(a, b)
-        framed = len(only_a) < len(self._above[self._place[a]])
+        framed = len(only_a) < len(self._above[self.place[a]])
         way_a, way_b = (
             JointWay(self, body, joints, framed) if self._above[body] else STANDS
-            for body, joints in ((self._place[a], only_a), (self._place[b], only_b))
+            for body, joints in ((self.place[a], only_a), (self.place[b], only_b))
         )
         return way_a, way_b
 
     def posed(self, pair: Pair, t: float) -> Posed:
         """The pose of both bodies at a time, as a report states it."""
-        mover = pair.a if self._above[self._place[pair.a.id]] else pair.b
+        mover = pair.a if self._above[self.place[pair.a.id]] else pair.b
         place = Place(mover.id, "t", t)
         return Posed((place,), self.path.pose(t), self.path.poses_around(t))
 
@@ -173,19 +187,7 @@ class JointTravel:
         linear = matrices.reshape(count, -1, 3, 4)
         centres = np.einsum("nbij,bj->bni", linear[..., :3], self._centres)
         centres += linear[..., 3].transpose(1, 0, 2)
-        return Moments(matrices, frames, axes, origins, rates, slides, centres)
-
-    def matrices(self, at: Moments, bodies: Sequence[str]) -> Numbers:
-        """The placements of these bodies, shape (moments, bodies, 12)."""
-        return at.matrices.take([self._place[body] for body in bodies], axis=1)
-
-    def between(self, at: Moments, half: Numbers, a: str, b: str) -> Numbers:
-        """An upper bound of how far two bodies move towards each other in a time `half` before or
-        after each moment, rounding included."""
-        only_a, only_b = self.relative(a, b)
-        speed_a, _ = self.fastest(at, half, self._place[a], only_a)
-        speed_b, _ = self.fastest(at, half, self._place[b], only_b)
-        return (speed_a + speed_b) * half * _ROUNDED_UP + 2 * self.pad
+        return Moments(matrices, frames, axes, origins, rates, slides, centres, self)
 
     def fastest(
         self, at: Moments, half: Numbers, body: int, joints: Sequence[int]

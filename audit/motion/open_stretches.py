@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from itertools import pairwise
 from math import inf
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from msgspec import Struct
@@ -22,8 +22,8 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 
 if TYPE_CHECKING:
-    from satcheck.audit.motion.joint_travel import JointTravel
-    from satcheck.audit.motion.track_travel import TrackTravel
+    from satcheck.audit.motion.joint_travel import JointTravel, Moments
+    from satcheck.audit.motion.track_travel import TrackMoments, TrackTravel
 
     Travel: TypeAlias = TrackTravel | JointTravel
 
@@ -104,10 +104,10 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
             continue
         steps += part.active.sum(axis=0)
         middle = 0.5 * (part.start + part.end)
-        at: Any = travel.at(middle)
+        at = travel.at(middle)
         half = np.nextafter(np.maximum(part.end - middle, middle - part.start), inf)
-        travelled = _travelled(travel, pairs, at, half, part.active)
-        codes = posed.sift(travel.matrices(at, ids), travelled + tolerances)
+        travelled = _travelled(at, pairs, half, part.active)
+        codes = posed.sift(at.placements(ids), travelled + tolerances)
         hits = np.where(codes == DEEP, part.start[:, None], inf)
         first_hit = np.minimum(first_hit, hits.min(axis=0))
         unproven = part.active & (codes != APART)
@@ -125,12 +125,12 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
 
 
 def _travelled(
-    travel: Travel, pairs: Sequence[Pair], at: Any, half: Numbers, active: Any
+    at: TrackMoments | Moments, pairs: Sequence[Pair], half: Numbers, active: Flags
 ) -> Numbers:
     """Return how far each pair travels in the time `half` from `at`, NaN where it is not active."""
     travelled = np.full(active.shape, np.nan)
     for k in np.flatnonzero(active.any(axis=0)).tolist():
-        own = travel.between(at, half, pairs[k].a.id, pairs[k].b.id)
+        own = at.between(half, pairs[k].a.id, pairs[k].b.id)
         travelled[:, k] = np.where(active[:, k], own, np.nan)
     return travelled
 

@@ -32,8 +32,8 @@ STEP = math.pi / 12
 
 
 class TrackTravel:
-    """bodies: all of the scene that can be used. times: the ends of the pieces of all motions.
-    steady: bodies move steadily in each piece."""
+    """bodies: all of the scene that can be used, by id. times: the ends of the pieces of all
+    motions. steady: bodies move steadily in each piece."""
 
     steady = True
 
@@ -41,7 +41,7 @@ class TrackTravel:
         self._motions = tuple(motions)
         self._motion = {body: motion for motion in motions for body in motion.bodies}
         self._tracks = {id(motion): track_of(motion.path) for motion in motions}
-        self._bodies = {body.id: body for body in bodies}
+        self.bodies = {body.id: body for body in bodies}
         tracks = self._tracks.values()
         self.times = np.array(sorted({time for track in tracks for time in track.times}))
         times = part_times(tracks)
@@ -69,32 +69,11 @@ class TrackTravel:
         motion = self._motion.get(body)
         return SweptBoxes(placed, None if motion is None else self._parts[id(motion)])
 
-    def at(self, times: Numbers) -> Numbers:
-        """What the two following functions need of these times."""
-        return times
-
-    def matrices(self, at: Numbers, bodies: Sequence[str]) -> Numbers:
-        """The placements of these bodies, shape (times, bodies, 12)."""
-        matrices = np.empty((len(at), len(bodies), 3, 4))
-        for k, body in enumerate(bodies):
-            placed = np.array(self._bodies[body].body.transform or IDENTITY).reshape(4, 4)
-            rows = [self._track(body).pose_at(t)[:12] for t in at.tolist()]
-            matrices[:, k] = np.array(rows).reshape(-1, 3, 4) @ placed
-        return matrices.reshape(len(at), len(bodies), 12)
-
-    def between(self, at: Numbers, half: Numbers, a: str, b: str) -> Numbers:
-        """An upper bound of how far two bodies move towards each other in a time `half` before or
-        after each of these times, rounding included."""
-        way = np.zeros(len(at))
-        for body, track in ((self._bodies[id_], self._track(id_)) for id_ in (a, b)):
-            speeds = np.array([piece.speed(body.bounds) for piece in track.pieces])
-            with np.errstate(all="ignore"):  # beyond float64 nothing is proven
-                way += speeds[np.searchsorted(track.times, at, "right") - 1] * half * _ROUNDED_UP
-            way += 2 * rounding_of(body, track)
-        return way
+    def at(self, times: Numbers) -> TrackMoments:
+        return TrackMoments(self, times)
 
     def ways(self, a: str, b: str) -> tuple[Track, Track]:
-        return self._track(a), self._track(b)
+        return self.track(a), self.track(b)
 
     def posed(self, pair: Pair, t: float) -> Posed:
         """The pose of both bodies at a time, as a report states it."""
@@ -116,9 +95,38 @@ class TrackTravel:
             for motion in self._motions
         )
 
-    def _track(self, body: str) -> Track:
+    def track(self, body: str) -> Track:
         motion = self._motion.get(body)
         return STANDS if motion is None else self._tracks[id(motion)]
+
+
+class TrackMoments(Struct, frozen=True):
+    """Bodies on their tracks at some times."""
+
+    travel: TrackTravel
+    times: Numbers
+
+    def placements(self, bodies: Sequence[str]) -> Numbers:
+        """Return the placements of these bodies, shape (times, bodies, 12)."""
+        travel, times = self.travel, self.times
+        matrices = np.empty((len(times), len(bodies), 3, 4))
+        for k, body in enumerate(bodies):
+            placed = np.array(travel.bodies[body].body.transform or IDENTITY).reshape(4, 4)
+            rows = [travel.track(body).pose_at(t)[:12] for t in times.tolist()]
+            matrices[:, k] = np.array(rows).reshape(-1, 3, 4) @ placed
+        return matrices.reshape(len(times), len(bodies), 12)
+
+    def between(self, half: Numbers, a: str, b: str) -> Numbers:
+        """Return an upper bound of how far two bodies move towards each other in a time `half`
+        before or after each of these times, rounding included."""
+        travel, times = self.travel, self.times
+        way = np.zeros(len(times))
+        for body, track in ((travel.bodies[id_], travel.track(id_)) for id_ in (a, b)):
+            speeds = np.array([piece.speed(body.bounds) for piece in track.pieces])
+            with np.errstate(all="ignore"):  # beyond float64 nothing is proven
+                way += speeds[np.searchsorted(track.times, times, "right") - 1] * half * _ROUNDED_UP
+            way += 2 * rounding_of(body, track)
+        return way
 
 
 class Parts(Struct, frozen=True):

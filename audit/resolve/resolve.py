@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import check
 from satcheck.audit.resolve.conflicts import (
-    BodyPair,
+    Checked,
     at_rest,
     check_at_rest,
     is_objected,
@@ -40,6 +40,10 @@ BOTH_STAY = "both bodies stay"
 LINKS_STAY = "links of a robot stay where its joints put them"
 NO_WAY = "no way out was found"
 ONLY_MOVING = "only while they move, and motions are not resolved"
+# Figures of overlaps are not needed where none is left.
+NO_FIGURES = dict.fromkeys(
+    ("depth", "contacts", "components", "volume", "cross_check", "certificate"), False
+)
 _VERDICTS: dict[str, ResolutionVerdict] = {
     "pass": "resolved",
     "fail": "unresolved",
@@ -77,16 +81,7 @@ def resolve(
         raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
     if iterations < 0:
         raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
-    # Figures of overlaps are not needed where none is left.
-    proof = replace(
-        settings or Settings(),
-        depth=False,
-        contacts=False,
-        components=False,
-        volume=False,
-        cross_check=False,
-        certificate=False,
-    )
+    proof = replace(settings or Settings(), **NO_FIGURES)
     scene.require_in_space("resolve moves bodies in space only")
     scene.require_one_unit()
     robots = (robot for robot in scene.robots if not robot.loose)
@@ -94,53 +89,57 @@ def resolve(
     staying = links | _staying(scene, pins)
     rest = at_rest(scene)
     before = check_at_rest(rest, replace(proof, list_pruned=False), BodyCache())
-    failing: Collection[BodyPair] = before.conflicts
-    budget = min(proof.budget, max(LEAST_BUDGET, ROUND_BUDGET / max(len(failing), 1)))
-    measuring = replace(
-        proof, depth=True, thickness=False, tolerance=0.0, budget=budget, list_pruned=False
-    )
     free = strict(rest, before.findings, proof.fail_on)
+    measuring = _measuring(proof, len(before.conflicts))
     pushing = Pushing(free, measuring, staying, max_motion or math.inf)
-    if failing:
+    if before.conflicts:
         pushing.run(iterations, progress)
-        failing = pushing.failing
     moved = {id_: offset for id_, offset in pushing.offsets.items() if offset != ORIGIN}
     report = checked(moved, proof) if checked else check(moved_scene(scene, moved), proof)
-    moves = tuple(
-        Move(body.id, moved[body.id], math.hypot(*moved[body.id]))
-        for body in scene.bodies
-        if body.id in moved
-    )
+    moves = _moves(scene, moved)
     pinned = tuple(body.id for body in scene.bodies if body.id in staying)
-    kinds: Counter[str] = Counter(conflict.kind for conflict in before.conflicts.values())
-    counts = sorted(report.summary.by_relation.items())
-    relations = {relation: count for relation, count in counts if count}
+    relations = {name: n for name, n in sorted(report.summary.by_relation.items()) if n}
     document = ResolutionReport(
         tool=report.tool,
         units=report.units,
         output=output,
-        summary=_summary(report, kinds, moves, len(pinned), pushing.rounds),
+        summary=_summary(report, before, moves, len(pinned), pushing.rounds),
         moves=moves,
         pinned=pinned,
-        left=tuple(
-            _left(finding, failing, pushing.left, staying, links) for finding in objected(report)
-        ),
+        left=tuple(_left(finding, pushing, staying, links) for finding in objected(report)),
         check=MovedCheck(report.summary.verdict, report.summary.pairs, relations),
         issues=report.issues,
     )
     return document, report
 
 
+def _measuring(proof: Settings, conflicts: int) -> Settings:
+    """Return the settings that measure the overlaps of a round."""
+    budget = min(proof.budget, max(LEAST_BUDGET, ROUND_BUDGET / max(conflicts, 1)))
+    return replace(
+        proof, depth=True, thickness=False, tolerance=0.0, budget=budget, list_pruned=False
+    )
+
+
+def _moves(scene: Scene, moved: Mapping[str, Vector]) -> tuple[Move, ...]:
+    return tuple(
+        Move(body.id, moved[body.id], math.hypot(*moved[body.id]))
+        for body in scene.bodies
+        if body.id in moved
+    )
+
+
 def _summary(
-    report: Report, before: Counter[str], moves: Sequence[Move], pinned: int, rounds: int
+    report: Report, before: Checked, moves: Sequence[Move], pinned: int, rounds: int
 ) -> ResolutionSummary:
-    """before: pairs of the unmoved scene by the kind of their state."""
+    """before: the check of the unmoved scene."""
     lengths = [move.length for move in moves]
+    kinds = Counter(conflict.kind for conflict in before.conflicts.values())
     return ResolutionSummary(
         verdict=_VERDICTS[report.summary.verdict],
-        conflicts=before["overlap"] + before["near"] + before["open"],
-        gaps=before["near"],
-        open=before["open"],
+        conflicts=kinds.total(),
+        gaps=kinds["near"],
+        open=kinds["open"],
         remaining=len(objected(report)),
         flush=sum(
             finding.at_rest == "touching" and finding.exact_relation in OVERLAPS
@@ -172,17 +171,12 @@ def objected(report: Report) -> tuple[Finding, ...]:
 
 
 def _left(
-    finding: Finding,
-    failing: Collection[BodyPair],
-    given_up: Mapping[BodyPair, str],
-    staying: frozenset[str],
-    links: frozenset[str],
+    finding: Finding, pushing: Pushing, staying: frozenset[str], links: frozenset[str]
 ) -> Left:
-    """failing: pairs that fail at rest."""
     a, b = sorted((finding.a, finding.b))
-    if finding.motion is not None and (a, b) not in failing:
+    if finding.motion is not None and (a, b) not in pushing.failing:
         return Left(finding.a, finding.b, finding.motion.relation, ONLY_MOVING)
-    why = given_up.get((a, b), NO_WAY)
+    why = pushing.left.get((a, b), NO_WAY)
     if {a, b} <= staying:
         why = LINKS_STAY if {a, b} <= links else BOTH_STAY
     return Left(finding.a, finding.b, finding.at_rest, why)

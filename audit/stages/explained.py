@@ -19,7 +19,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
-from satcheck.audit.draft import Draft
+from satcheck.audit.draft import Band, Draft
 from satcheck.audit.stages.thickness import across, why_not_thick
 from satcheck.report.judge import EXACT_WIDTH
 
@@ -34,71 +34,77 @@ MOST_CROSSINGS = 100_000
 # wedge of angle w that is nowhere deeper than e reaches e (1 + 1 / sin(w / 2)) deep: no more than
 # that, with e_A = e_B = e, if w is 17 degrees or more.
 MOST_REACH = 4.0
-THROUGH = "one body passes through the other"
 # Steps of a search that decides most overlaps that are well within the tolerance or well beyond it.
 QUICK_WORK = 1_000_000
 # Steps of the proof by the planes of faces, which decides bodies that fit at once, if at all.
 FIT_WORK, FIT_WORK_PER_TRIANGLE = 100_000_000, 20_000
 
 
-Explained = Literal["within", "deeper", "not excused", "undecided"]
+WITHIN, DEEPER = Band("within"), Band("deeper")
+THROUGH = Band("open", unexcused="one body passes through the other")
+THROUGH_OPEN = Band("hidden", why="whether one body passes through the other")
+DEPTH_OPEN = Band("hidden", why="whether a point lies deeper in both than the surfaces may be off")
 
 
 def may_be_explained(pair: Pair) -> bool:
     return max(pair.off) > 0 and why_not_thick(pair) is None
 
 
-def explain(draft: Draft, nanoseconds: int = 0) -> tuple[Explained, str]:
-    """Of an overlap of closed bodies, with the open question if it is undecided, and why it is not
-    excused. nanoseconds: what was spent before."""
+def explain(draft: Draft, nanoseconds: int = 0) -> Band:
+    """Return whether that explains an overlap of closed bodies: `hidden` if that is undecided, and
+    `open` if it is not excused. nanoseconds: what was spent before."""
     pair = draft.pair
-    result, detail = _decided(pair)
+    band = _decided(pair)
     off = " and ".join(f"{length:.3g} in {body.id}" for length, body in surfaces(pair))
-    told = f"{detail} is open" if result == "undecided" else detail
-    joint = " " if result in ("within", "deeper") else "; the surfaces are off by "
-    draft.record(STAGE, result, f"{told}{joint}{off}", nanoseconds)
-    return result, detail
+    match band.side:
+        case "within":
+            told = "within", f"no point lies deeper than {off}"
+        case "deeper":
+            told = "deeper", f"a point lies deeper than {off}"
+        case "hidden":
+            told = "undecided", f"{band.why} is open; the surfaces are off by {off}"
+        case _:
+            told = "not excused", f"{band.unexcused}; the surfaces are off by {off}"
+    draft.record(STAGE, *told, nanoseconds)
+    return band
 
 
-def _decided(pair: Pair) -> tuple[Explained, str]:
-    """The result, and what is said of it: "within" and "deeper" are followed by the lengths."""
+def _decided(pair: Pair) -> Band:
     if not pair.excuses:
         return _decided_by_band(pair)
-    result, detail = _decided_by_surfaces(pair)
-    if result in ("not excused", "undecided") and pair.tolerance > 0:
+    band = _decided_by_surfaces(pair)
+    if band.side in ("open", "hidden") and pair.tolerance > 0:
         by_band = _decided_by_band(pair)
-        if by_band[0] == "within":
+        if by_band.side == "within":
             return by_band
-    return result, detail
+    return band
 
 
-def _decided_by_band(pair: Pair) -> tuple[Explained, str]:
+def _decided_by_band(pair: Pair) -> Band:
     """Decide whether a ball thicker than the tolerance lies in both."""
     half = 0.5 * pair.tolerance
     if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), half, half):
-        return "within", "no point lies deeper than"
+        return WITHIN
     quick = _search(pair, pair.a, pair.b, (0.0, 0.0), pair.tolerance, prove=False, work=QUICK_WORK)
     if quick.lower > pair.tolerance:
-        return "deeper", "a point lies deeper than"
+        return DEEPER
     if quick.upper <= pair.tolerance and passes(pair) is False:
-        return "within", "no point lies deeper than"
+        return WITHIN
     fit = _fit_of_convex(pair) or _fit(pair)
     if fit == "deeper":
-        return "deeper", "a point lies deeper than"
+        return DEEPER
     if fit == "fit":
-        return "within", "no point lies deeper than"
+        return WITHIN
     through = passes(pair)
     if through:
-        return "not excused", THROUGH
+        return THROUGH
     if fit is None:
         interval = _search(pair, pair.a, pair.b, (0.0, 0.0), pair.tolerance, prove=False)
         if interval.lower > pair.tolerance:
-            return "deeper", "a point lies deeper than"
+            return DEEPER
         if interval.upper > pair.tolerance:
-            return "undecided", "whether a point lies deeper in both than the surfaces may be off"
-    if through is None:
-        return "undecided", "whether one body passes through the other"
-    return "within", "no point lies deeper than"
+            return DEPTH_OPEN
+    return THROUGH_OPEN if through is None else WITHIN
 
 
 def _fit_of_convex(pair: Pair) -> Literal["deeper", "thin"] | None:
@@ -124,30 +130,31 @@ def passes(pair: Pair) -> bool | None:
     return core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
 
 
-def _decided_by_surfaces(pair: Pair) -> tuple[Explained, str]:
+def _decided_by_surfaces(pair: Pair) -> Band:
     for length, body in surfaces(pair):
         if not ball_in(pair, body, length).lower > 0:
-            return "not excused", f"{body.id} is not known to be thicker than its tolerance"
+            why = f"{body.id} is not known to be thicker than its tolerance"
+            return Band("open", unexcused=why)
     if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), *pair.off):
-        return "within", "no point lies deeper than"
+        return WITHIN
     through = passes(pair)
     if through:
-        return "not excused", THROUGH
+        return THROUGH
     limit = limit_of(pair)
     interval = deeper(pair, prove=False)
     if interval.lower > limit:
-        return "deeper", "a point lies deeper than"
+        return DEEPER
     if interval.upper > limit:
-        return "undecided", "whether a point lies deeper in both than the surfaces may be off"
+        return DEPTH_OPEN
     reach = reaching(pair)
-    if through is None and (reach is None or reach[0] == "undecided"):
-        return "undecided", "whether one body passes through the other"
-    return reach or ("within", "no point lies deeper than")
+    if through is None and (reach is None or reach.side == "hidden"):
+        return THROUGH_OPEN
+    return reach or WITHIN
 
 
-def reaching(pair: Pair) -> tuple[Explained, str] | None:
-    """Whether a thin part of one body lies deeper in the other than what is off explains; None: no
-    part does."""
+def reaching(pair: Pair) -> Band | None:
+    """Return what follows where a thin part of one body lies deeper in the other than what is off
+    explains; None: no part does."""
     most, limit = MOST_REACH * sum(pair.off), limit_of(pair)
     for off, body, other in (((0.0, most), pair.a, pair.b), ((most, 0.0), pair.b, pair.a)):
         interval = _search(pair, pair.a, pair.b, off, limit, prove=False)
@@ -156,9 +163,11 @@ def reaching(pair: Pair) -> tuple[Explained, str] | None:
             work = pair.thickness_work
             reaches = core.reaches_deeper(body.surface().mesh, other.surface(), most, work)
         if reaches:
-            return "not excused", f"a thin part of {body.id} reaches more than {most:.3g} deep"
+            why = f"a thin part of {body.id} reaches more than {most:.3g} deep"
+            return Band("open", unexcused=why)
         if reaches is None:
-            return "undecided", f"whether a thin part of {body.id} reaches {most:.3g} deep"
+            why = f"whether a thin part of {body.id} reaches {most:.3g} deep"
+            return Band("hidden", why=why)
     return None
 
 

@@ -27,7 +27,6 @@ from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Vector
 
 if TYPE_CHECKING:
-    from satcheck.audit.stages.explained import Explained
     from satcheck.core.curved.signed import Signed
 
 # A way out that exceeds the tolerance by no more than this factor is tried again as long as that.
@@ -54,24 +53,26 @@ def estimate_is_within(draft: Draft) -> bool:
 def touch_band(draft: Draft) -> Band:
     """Return whether an overlap is within the tolerance: because surfaces that may be off explain
     it, whatever the way out, or because a move within the tolerance frees A."""
-    result, detail = _explained(draft)
-    if result == "within" or result == "deeper":
-        return Band(result)
+    explained = _explained(draft)
+    if explained is not None and explained.side in ("within", "deeper"):
+        return explained
     band = _by_moves(draft)
-    if result == "undecided" and band.side != "within":
-        return Band("hidden", why=detail)
-    return replace(band, unexcused=detail) if result == "not excused" else band
+    if explained is None:
+        return band
+    if explained.side == "hidden":
+        return band if band.side == "within" else explained
+    return replace(band, unexcused=explained.unexcused)
 
 
-def _explained(draft: Draft) -> tuple[Explained | None, str]:
+def _explained(draft: Draft) -> Band | None:
     """Return whether that explains the overlap of closed bodies that hold no ball thicker than the
-    tolerance, and why it does not; None: not asked."""
+    tolerance; None: not asked."""
     climb = draft.climb
     if climb is None or climb.thick is not False or climb.band == "within":
-        return None, ""
+        return None
     from satcheck.audit.stages.explained import explain, may_be_explained
 
-    return explain(draft, climb.band_nanoseconds) if may_be_explained(draft.pair) else (None, "")
+    return explain(draft, climb.band_nanoseconds) if may_be_explained(draft.pair) else None
 
 
 def _by_moves(draft: Draft) -> Band:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from unittest.mock import Mock
 
 import pytest
 
+from satcheck import decompose
 from satcheck.audit.bodies import BodyCache
 from satcheck.audit.body import PlacedBody, SharedMesh, world_bounds
 from satcheck.audit.check import check
@@ -34,28 +36,28 @@ def crowd(file, count, step):
     )
 
 
-def work_of(scene, settings=QUICK):
+def mesh_of(scene, settings=QUICK):
     cache = BodyCache()
     report = check(scene, settings, cache=cache)
     (mesh,) = cache.meshes.values()
-    return report, mesh.work
+    return report, mesh
 
 
 def test_one_hierarchy_for_a_mesh_whatever_the_number_of_bodies(tmp_path):
     bodies = crowd(file_of(tmp_path, shapes.bracket()), 40, 4.0)
-    report, work = work_of(Scene("", None, bodies))
+    report, mesh = mesh_of(Scene("", None, bodies))
     triangles = [f for f in report.findings if any(s.stage == "triangles" for s in f.plan)]
-    assert work.hierarchies == 1
-    assert work.refits == len({name for found in triangles for name in (found.a, found.b)})
+    assert mesh.geometry.hierarchies == 1
+    assert mesh.geometry.refits == len({name for found in triangles for name in (found.a, found.b)})
     assert len(triangles) > 20
-    assert work.decompositions == 0
+    assert mesh.decomposition.known is None
 
 
 def test_nothing_is_built_for_bodies_that_their_boxes_keep_apart(tmp_path):
     bodies = crowd(file_of(tmp_path, shapes.bracket()), 20, 50.0)
-    report, work = work_of(Scene("", None, bodies))
+    report, mesh = mesh_of(Scene("", None, bodies))
     assert report.summary.pairs.pruned == report.summary.pairs.total
-    assert (work.hierarchies, work.refits) == (0, 0)
+    assert (mesh.geometry.hierarchies, mesh.geometry.refits) == (0, 0)
 
 
 def test_a_body_where_its_file_puts_it_shares_the_surface_of_the_file(tmp_path):
@@ -66,7 +68,7 @@ def test_a_body_where_its_file_puts_it_shares_the_surface_of_the_file(tmp_path):
     assert body.hull() is mesh.geometry.hull()
     assert body.hull_shape() is mesh.geometry.hull_shape()
     assert body.mesh is file.mesh
-    assert (mesh.work.hierarchies, mesh.work.refits) == (1, 0)
+    assert (mesh.geometry.hierarchies, mesh.geometry.refits) == (1, 0)
 
 
 def test_what_was_let_go_is_made_again_and_is_the_same(tmp_path):
@@ -78,14 +80,16 @@ def test_what_was_let_go_is_made_again_and_is_the_same(tmp_path):
     body.release()
     assert body.surface() is not before
     assert (body.surface().mesh.vertices == before.mesh.vertices).all()
-    assert (mesh.work.hierarchies, mesh.work.refits) == (1, 2)
+    assert (mesh.geometry.hierarchies, mesh.geometry.refits) == (1, 2)
 
 
-def test_parts_are_made_once_for_a_mesh(tmp_path):
+def test_parts_are_made_once_for_a_mesh(tmp_path, monkeypatch):
     bodies = crowd(file_of(tmp_path, shapes.bracket()), 4, 3.0)
     settings = Settings(depth=False, accuracy="parts", cache=False)
-    _, work = work_of(Scene("", None, bodies), settings)
-    assert work.decompositions == 1
+    made = Mock(wraps=decompose.decompose)
+    monkeypatch.setattr(decompose, "decompose", made)
+    mesh_of(Scene("", None, bodies), settings)
+    assert made.call_count == 1
 
 
 def test_bounds_of_all_bodies_at_once(tmp_path):

@@ -11,9 +11,20 @@ import pytest
 
 from satcheck.report.baseline import HELD
 from satcheck.report.judge import EXACT_WIDTH, disputed, judged
-from satcheck.report.report import OVERLAPS, RELATIONS, Finding, Issue, PairCounts
+from satcheck.report.report import (
+    OVERLAPS,
+    RELATIONS,
+    BodyReport,
+    Finding,
+    Issue,
+    PairCounts,
+    Report,
+    Summary,
+    Tool,
+)
 from satcheck.report.request import LIMITS, Request
-from satcheck.report.statics import SupportFinding
+from satcheck.report.settings import StatedSettings
+from satcheck.report.statics import Statics, SupportFinding
 from satcheck.report.verdict import fails, summarise
 
 RANKS = ("none", "silenced", "note", "warning", "error")
@@ -128,7 +139,19 @@ def test_random_reports_have_the_summary_that_follows(seed: int) -> None:
     blocking = Issue("unread", "warning", None, None, "", state="blocking")
     issues = [blocking] if dice.random() < 0.3 else []
     fail_on, alone = dice.choice(RANKS[2:]), dice.random() < 0.5
-    made = summarise(counts, findings, fail_on, issues=issues, alone=alone, answers=answers)
+    body = BodyReport(id="a", name="a", file="a.obj", groups=(), static=False, triangles=12)
+    report = Report(
+        tool=Tool("satcheck", ""),
+        units=None,
+        settings=StatedSettings(fail_on=fail_on),
+        summary=Summary("incomplete", counts, {}),
+        pose={},
+        bodies=(body,) if alone else (body, body),
+        findings=tuple(findings),
+        issues=tuple(issues),
+        statics=_statics(*answers),
+    )
+    made = summarise(report)
     relations["separated"] += pruned
     relations["indeterminate"] += left_open
     assert Counter({str(key): n for key, n in made.by_relation.items()}) == relations
@@ -160,4 +183,20 @@ def _judged_at_random(dice: random.Random) -> Finding:
         undecided=undecided,
         baseline_state=dice.choice((None, *HELD, "new")),
         plan=(),
+    )
+
+
+def _statics(*answers: SupportFinding) -> Statics:
+    return Statics(
+        gravity=(0.0, 0.0, -1.0),
+        friction=0.5,
+        tolerance=0.0,
+        stated=(),
+        asked_by=(),
+        rules=(),
+        bodies=(),
+        contacts=(),
+        islands=(),
+        findings=answers,
+        pairs=0,
     )
