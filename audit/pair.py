@@ -21,15 +21,17 @@ if TYPE_CHECKING:
     from satcheck.report.sweep import Sweep
 
 
-# The most steps of the climbs of a scene: about five seconds, and more for each triangle of a mesh.
-# Real scenes take far fewer: 20,000 bodies of the bench, with 16,000 pairs, a hundredth, or 3,500
-# for a pair; chain links in contact 90,000 for a pair. A pair of real meshes takes up to 2,100 for
-# a triangle, so that large meshes bring the steps that they need.
+# The most steps of the climbs of a scene, about five seconds, and more for each triangle of a mesh,
+# however often it is placed. Scenes of real bodies take far fewer: 20,000
+# bodies of the bench, with 16,000 pairs, 3,500 for a pair; chain links in contact 90,000. The
+# largest known are those of bolts that fill their holes, with the facets of a tessellator: up to
+# 60,000 for a triangle of two such bodies.
 STEPS_OF_SCENE = 5_000_000_000
-STEPS_OF_TRIANGLE = 2_000
+STEPS_OF_TRIANGLE = 500_000
 MOST_STEPS = 2**63
-# The most steps of the relations of moved bodies, in which a way out of a pair is verified.
-STEPS_OF_MOVES = 1_000_000_000
+# The most steps of the relations of moved bodies, in which a way out of a pair is verified, and more
+# for each triangle.
+STEPS_OF_MOVES, STEPS_OF_MOVED_TRIANGLE = 1_000_000_000, 200_000
 
 # The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
 # of a part that is 1/4000 of its assembly still has the full precision of float32 coordinates.
@@ -102,7 +104,7 @@ class Pair(Struct, eq=False):
     @property
     def steps_for_moves(self) -> int:
         """Return how many steps the relations of moved bodies may still take."""
-        most = STEPS_OF_MOVES + STEPS_OF_TRIANGLE * self.triangles
+        most = STEPS_OF_MOVES + STEPS_OF_MOVED_TRIANGLE * self.triangles
         return max(most - self.moved_steps, 0)
 
     @property
