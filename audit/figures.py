@@ -28,7 +28,8 @@ from satcheck.report.report import Finding, Issue
 
 # A pair may use this share of the budget, even if that leaves nothing for the last pairs.
 LEAST_SHARE = 1 / 8
-# Steps for what nobody counts, such as hulls: for a pair, and for each of its triangles.
+# Steps for what the searches do not count, such as hulls and the proof of a way out: for a pair,
+# and for each of its triangles. More if that proof takes more.
 STEPS_OF_PAIR = 400_000
 STEPS_OF_TRIANGLE = 1_000
 
@@ -85,7 +86,7 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
     if checked.draft is None:  # it failed, and what was proven before it stands
         checked = replace(checked, finding=finding)
     steps = STEPS_OF_PAIR + STEPS_OF_TRIANGLE * pair.triangles
-    return checked, draft.work - before + draft.pair.moved_steps + steps
+    return checked, draft.work - before + max(steps, draft.pair.moved_steps)
 
 
 def _finished(pair: CheckedPair) -> CheckedPair:

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 STEPS_OF_SCENE = 5_000_000_000
 STEPS_OF_TRIANGLE = 500_000
 MOST_STEPS = 2**63
-# The most steps of the relations of moved bodies, in which a way out of a pair is verified, and more
-# for each triangle.
+# The most steps of the relations of moved bodies, in which a way out of a pair is verified, and
+# more for each triangle.
 STEPS_OF_MOVES, STEPS_OF_MOVED_TRIANGLE = 1_000_000_000, 200_000
 
 # The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
