@@ -5,6 +5,10 @@ and only a few bodies have a surface in memory at a time. Pairs go in batches. T
 ladder with all pairs of a batch, in its own threads, while Python makes the findings of the batch
 before. Slow figures, such as a depth, run in threads. A pair that fails is a finding too, so that
 the other pairs are still checked.
+
+The climbs share the steps of the scene, which are counted, so that no number of threads changes
+which pairs are decided. All pairs may first take a few of them. Those that want more climb again
+with many times as many, as long as there are steps.
 """
 
 from __future__ import annotations
@@ -13,11 +17,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.finding import examine
-from satcheck.audit.pair import Pair
+from satcheck.audit.pair import MOST_STEPS, STEPS_OF_SCENE, STEPS_OF_TRIANGLE, Pair
 from satcheck.audit.parallel import in_parallel
 from satcheck.audit.stages.relation import TOO_MANY_STEPS, leaves_work, start_climbs
 from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
@@ -36,15 +41,21 @@ PARALLEL_PAIRS = 8
 BATCH_PAIRS = 256
 BATCH_TRIANGLES = 250_000
 
+# The factor of the steps of a pair that climbs again.
+MORE_STEPS = 16
+
 Progress = Callable[[int, int], None]
 
 
 class CheckedPair(Struct, frozen=True):
-    """draft: of a pair that fails and waits for its figures, and for what comes after them."""
+    """draft: of a pair that fails and waits for its figures, and for what comes after them. steps:
+    of its climb. wants_more: with more of them it may prove more."""
 
     finding: Finding
     issues: tuple[Issue, ...] = ()
     draft: Draft | None = None
+    steps: int = 0
+    wants_more: bool = False
 
 
 def examine_pairs(
@@ -52,16 +63,48 @@ def examine_pairs(
 ) -> list[CheckedPair]:
     """Return the findings of pairs with the same settings, in their order. jobs: threads, 0 for one
     a core. keep: do not release the data of the bodies, because another check needs them."""
-    order = _along_curve(pairs)
-    leaving = {} if keep else _leaving(pairs, order)
     done: dict[int, CheckedPair] = {}
+    settled, wanting = 0, []
+    waiting, left = _along_curve(pairs), _steps_of(pairs)
+    steps = left // max(2 * len(pairs) - 1, 1)  # at first half of them, unless there is one pair
+    while waiting and left >= steps:
+        turn, waiting = waiting[: left // steps], waiting[left // steps :]
+        for k, checked in _examined_within(pairs, turn, jobs, steps, keep=keep):
+            done[k] = checked
+            left -= checked.steps
+            if checked.wants_more:
+                wanting.append(k)
+                continue
+            settled += 1
+            if progress is not None:
+                progress(settled, len(pairs))
+        if not waiting and left >= 2 * steps:
+            waiting, wanting, steps = wanting, [], min(MORE_STEPS * steps, left)
+    if progress is not None and settled < len(pairs):
+        progress(len(pairs), len(pairs))
+    return [done[k] for k in range(len(pairs))]
+
+
+def _steps_of(pairs: Sequence[Pair]) -> int:
+    """Return the most steps of the climbs of all pairs; of one pair, those that any may take."""
+    if len(pairs) == 1:
+        return MOST_STEPS
+    bodies = (body for pair in pairs for body in (pair.a, pair.b))
+    triangles = {id(body.shared): body.shared.triangles for body in bodies}
+    return STEPS_OF_SCENE + STEPS_OF_TRIANGLE * sum(triangles.values())
+
+
+def _examined_within(
+    pairs: Sequence[Pair], order: Sequence[int], jobs: int, steps: int, *, keep: bool
+) -> Iterator[tuple[int, CheckedPair]]:
+    """Yield the findings of the pairs in this order. steps: the most of each climb."""
+    for k in order:
+        pairs[k].steps = steps
+    leaving = {} if keep else _leaving(pairs, order)
     for k, checked in _careful(pairs, order) if is_careful() else _batched(pairs, order, jobs):
-        done[k] = checked
+        yield k, checked
         for body in leaving.get(k, ()):
             body.release()
-        if progress is not None:
-            progress(len(done), len(pairs))
-    return [done[k] for k in range(len(pairs))]
 
 
 def _along_curve(pairs: Sequence[Pair]) -> list[int]:
@@ -157,7 +200,8 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
             return CheckedPair(finding, draft=draft)
         return finished(finding, draft)
 
-    return guarded(examined, draft)
+    checked = guarded(examined, draft)
+    return replace(checked, steps=draft.steps, wants_more=draft.wants_more)
 
 
 def guarded(step: Callable[[], CheckedPair], draft: Draft) -> CheckedPair:

@@ -128,7 +128,7 @@ class Draft(Struct, eq=False):
     that for the depth, and returns its nanoseconds, too. The figures are None if they were not
     requested. disputed: the answer of another library that contradicts the relation. work: steps of
     the searches for the depth and the thickness. reason_code: why the relation is open, where the
-    input is the cause.
+    input is the cause. steps: of the climb. wants_more: with more of them it may prove more.
     """
 
     pair: Pair
@@ -160,6 +160,8 @@ class Draft(Struct, eq=False):
     disputed: str | None = None
     work: int = 0
     reason_code: UndecidedBy | None = None
+    steps: int = 0
+    wants_more: bool = False
 
     def record(self, stage: str, result: str, detail: str = "", earlier: int = 0) -> None:
         """Add a stage that has ended now. earlier: nanoseconds that it ran before the last one."""

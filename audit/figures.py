@@ -29,7 +29,7 @@ from satcheck.report.report import Finding, Issue
 # A pair may use this share of the budget, even if that leaves nothing for the last pairs.
 LEAST_SHARE = 1 / 8
 # Steps for what the searches do not count, such as hulls and the proof of a way out: for a pair,
-# and for each of its triangles.
+# and for each of its triangles. More if that proof takes more.
 STEPS_OF_PAIR = 400_000
 STEPS_OF_TRIANGLE = 1_000
 
@@ -75,7 +75,7 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
     effects = [e for e in request.if_failing if e != "thickness" or why_not_thick(pair) is None]
     work = min(pair.work, math.ceil(share / (1 + THICKNESS_SHARE)))
     by = {**request.by, **dict.fromkeys(effects, FOR_FAILURES)}
-    draft.pair = replace(pair, work=work, request=replace(request, by=by))
+    draft.pair = replace(pair, work=work, moved_steps=0, request=replace(request, by=by))
     try:
         with risky_step(f"measuring {a!r} and {b!r}"):
             checked = guarded(lambda: CheckedPair(measure(draft), draft=draft), draft)
@@ -86,7 +86,7 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
     if checked.draft is None:  # it failed, and what was proven before it stands
         checked = replace(checked, finding=finding)
     steps = STEPS_OF_PAIR + STEPS_OF_TRIANGLE * pair.triangles
-    return checked, draft.work - before + steps
+    return checked, draft.work - before + max(steps, draft.pair.moved_steps)
 
 
 def _finished(pair: CheckedPair) -> CheckedPair:

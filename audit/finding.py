@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
 INCOMPLETE = "not proven: the reader of a file may have left something out"
 OPEN_BAND = "undecided: whether that is within the tolerance"
+OPEN_GAP = "the gap is not known: measuring it takes too many steps"
 # The stages that run on request, in their order, after those that decide the relation. A curved
 # shape has none of those on triangles.
 ON_REQUEST: dict[Effect, Callable[[Draft], None]] = {
@@ -140,7 +141,8 @@ def _find_overlap(draft: Draft) -> str | None:
     is_open = pair.curved and draft.signed is not None and band.side == "open"
     draft.relation = named(draft.exact, band.side == "within")
     shown = draft.exact_proven
-    draft.reason = _weakness(draft) or (OPEN_BAND if is_open else None)
+    ran_out = band.side == "open" and draft.climb is not None and draft.climb.too_few_steps
+    draft.reason = _weakness(draft) or (OPEN_BAND if is_open or ran_out else None)
     if pair.excuses and draft.relation in OVERLAPS:
         draft.reason = draft.reason or _unexcused(pair, band)
     if pair.closer:
@@ -175,7 +177,8 @@ def _find_gap(draft: Draft) -> None:
 
         gap = gap_of_curves(pair, gap)
     proven, reason = draft.exact_proven, _weakness(draft)
-    kept = True if gap.kept is None and gap.distance is not None else gap.kept
+    is_unmeasured = gap.distance is None and draft.climb is not None and draft.climb.too_few_steps
+    kept = True if gap.kept is None and (gap.distance is not None or is_unmeasured) else gap.kept
     draft.relation = named(draft.exact, gap.within, kept)
     if gap.within:
         # The band is proven, even if it is unknown whether the bodies overlap a little.
@@ -184,7 +187,7 @@ def _find_gap(draft: Draft) -> None:
     elif draft.relation == "near" and kept is None:
         proven, reason = False, _open_gap(pair)
     elif draft.relation == "separated" and gap.within is None:
-        reason = reason or OPEN_BAND
+        reason = reason or (OPEN_GAP if is_unmeasured else OPEN_BAND)
     shown = draft.exact_proven
     if pair.closer and gap.lower == 0:  # the curves may meet
         shown = False

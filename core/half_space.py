@@ -110,8 +110,7 @@ def heights_of_points(plane: Plane, points: NDArray[np.float64]) -> tuple[Height
     rough = (points - origin) @ normal
     largest = float(np.abs(points).max() + np.abs(origin).max())
     slack = 2 * _HEIGHT_ROUNDOFFS * UNIT_ROUNDOFF * largest
-    low = np.unique(points[rough <= rough.min() + slack], axis=0)
-    high = np.unique(points[rough >= rough.max() - slack], axis=0)
+    low, high = points[rough <= rough.min() + slack], points[rough >= rough.max() - slack]
     return _extreme(plane, low, 1), _extreme(plane, high, -1)
 
 
@@ -195,7 +194,7 @@ def _extreme(plane: Plane, points: NDArray[np.float64], sign: int) -> Height:
     square, none = _dot(plane.normal, plane.normal), Fraction(0)
     heights = [
         (_over(plane, (Fraction(x), Fraction(y), Fraction(z))), (x, y, z))
-        for x, y, z in points.tolist()
+        for x, y, z in sorted(set(map(tuple, points.tolist())))
     ]
     over, point = min(heights, key=lambda height: sign * height[0])
     return _height(over, none, none, square, point)

@@ -123,7 +123,8 @@ def relation_after(pair: Pair, translation: Vector) -> str:
             surface = pair.a.surface().refit(moved)
         except ValueError:  # rounding has made one point of several: no longer the same solid
             return "unproven"
-        result = core.mesh_relation(surface, pair.b.surface())
+        result = core.mesh_relation(surface, pair.b.surface(), steps=pair.steps_for_moves)
+        pair.moved_steps += result.steps
         return result.relation if result.proven else "unproven"
     return core.check_pair(
         core.Hull(moved.convex_hull()), pair.b.hull_shape(), query="overlap"

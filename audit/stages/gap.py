@@ -34,6 +34,9 @@ def measure_gap(draft: Draft) -> Gap:
         return Gap(0.0, 0.0, True, not pair.request.clearance, 0.0, None, witness)
     climb = draft.climb
     if climb is None or climb.gap is None:
+        if climb is not None and climb.too_few_steps:
+            stage = "distance" if pair.wants_distance else "touch-band"
+            draft.add(stage, "undecided", "too many steps", climb.band_nanoseconds)
         return _at_least(pair, draft.gap_lower)
     return _surface_gap(draft, climb, climb.gap)
 
@@ -55,8 +58,11 @@ def _surface_gap(draft: Draft, climb: core.Climb, surfaces: core.MeshDistance) -
 
     def side(length: float, sure: tuple[int, ...]) -> int | None:
         """The sign of (distance - length). What fills a hole may be nearer than the surfaces, so
-        that only some signs are sure."""
-        sign = core.compare_gap(pair.a.surface(), pair.b.surface(), length)
+        that only some signs are sure. None too if it takes too many steps."""
+        try:
+            sign = core.compare_gap(pair.a.surface(), pair.b.surface(), length)
+        except core.TooManySteps:
+            return None
         return sign if hole_gap is None or sign in sure else None
 
     distance = surfaces.distance

@@ -40,6 +40,7 @@ LAST: dict[Accuracy, Rung] = {
     "exact": "triangles",
 }
 TOO_MANY_STEPS = "deciding takes more steps than a pair may"
+NO_STEPS_LEFT = "deciding takes more steps than the scene leaves for it: check the two alone"
 # Effects that are computed after the ladder for every verdict.
 _EXTRAS: frozenset[Effect] = frozenset(
     ("volume", "contacts", "components", "cross-check", "certificate", "sweep")
@@ -51,6 +52,7 @@ def settle(draft: Draft, climb: core.Climb | None = None) -> None:
     core has made it already."""
     pair = draft.pair
     climb = _climb(pair) if climb is None else climb
+    draft.steps, draft.wants_more = climb.steps, climb.too_few_steps and climb.steps >= pair.steps
     beyond = climb.settled and climb.relation == "separated" and climb.gap_lower > pair.gap_limit
     if pair.on_half_space and pair.may("hull") and not beyond:
         from satcheck.audit.stages.half_space import settle_half_space
@@ -92,7 +94,8 @@ def _by_rungs(draft: Draft, climb: core.Climb) -> None:
 def _take(draft: Draft, climb: core.Climb) -> None:
     """Take the answer of the core."""
     weak = None if climb.hole is None else open_hole(draft.pair, climb.hole)
-    weak = weak if climb.decided else TOO_MANY_STEPS
+    if not climb.decided:
+        weak = NO_STEPS_LEFT if draft.wants_more else TOO_MANY_STEPS
     draft.found(climb.relation, climb.proven, climb.gap_lower, climb.signed_distance, weak=weak)
     draft.crossing, draft.point, draft.climb = climb.crossing, climb.point, climb
     draft.reason_code = None if climb.hole is None else "open-hole"
@@ -110,12 +113,12 @@ def open_hole(pair: Pair, hole: core.OpenHole) -> str:
 def _climb(pair: Pair, last: Rung | None = None) -> core.Climb:
     """Climb with one pair as far as the settings allow. Raises what making its bodies raises."""
     last = "aabb" if pair.curved else last or LAST[pair.settings.accuracy]
-    return core.climb(_question(pair), "aabb", last, pair.settings.method)
+    return core.climb(_question(pair), "aabb", last, pair.settings.method, pair.steps)
 
 
 def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.Climb | None]]:
-    """Start the climbs of pairs with the same settings on `threads` threads; 0: one a core. The
-    returned function waits for the results.
+    """Start the climbs of pairs with the same settings and steps on `threads` threads; 0: one a
+    core. The returned function waits for the results.
 
     A result is None if the climb failed, or if the pair has other steps; settle() then climbs
     again.
@@ -124,7 +127,12 @@ def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.
     last = LAST[pairs[0].settings.accuracy]
     alone = len(pairs) == 1 and pairs[0].alone
     climbing = core.Climbing(
-        [_question(pairs[k]) for k in plain], last, threads, alone, pairs[0].settings.method
+        [_question(pairs[k]) for k in plain],
+        last,
+        threads,
+        alone,
+        pairs[0].settings.method,
+        pairs[0].steps,
     )
     if len(plain) == len(pairs):
         return climbing.results

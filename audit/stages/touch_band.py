@@ -130,6 +130,8 @@ def _band_of_meshes(draft: Draft, climb: core.Climb) -> Band:
         result, detail = "within", "the hulls of the whole meshes overlap by no more"
     elif band.side == "hidden":
         result, detail = "undecided", "a move as long as it, to rounding, frees A"
+    elif climb.too_few_steps:
+        result, detail = "undecided", "looking for a move within it takes too many steps"
     else:
         result, detail = "not found", "no move within it frees A"
     draft.add("touch-band", result, f"{_band(pair)}: {detail}", cost)

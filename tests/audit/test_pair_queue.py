@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from queue import SimpleQueue
 from threading import Event, Thread
 from time import sleep
@@ -16,12 +17,19 @@ from satcheck.audit.checked_pairs import (
     PARALLEL_PAIRS,
     examine_pairs,
 )
+from satcheck.audit.pair import STEPS_OF_SCENE, STEPS_OF_TRIANGLE
+
+
+@dataclass(eq=False)
+class FakeMesh:
+    triangles: int = 12
 
 
 @dataclass(eq=False)
 class FakeBody:
     bounds: tuple
     gone: list = field(default_factory=list)
+    shared: FakeMesh = field(default_factory=FakeMesh)
 
     def release(self):
         self.gone.append(True)
@@ -32,6 +40,14 @@ class FakePair:
     a: FakeBody
     b: FakeBody
     triangles: int = 24
+    steps: int = 0
+
+
+@dataclass(frozen=True)
+class FakeChecked:
+    result: object
+    steps: int = 0
+    wants_more: bool = False
 
 
 def chain(count):
@@ -54,10 +70,11 @@ def found(monkeypatch):
 
     def by(pairs, examine, jobs=1, **options):
         def examined(pair, climb):
-            return examine(pair) if climb is pair else None
+            result = examine(pair) if climb is pair else None
+            return result if isinstance(result, FakeChecked) else FakeChecked(result)
 
         monkeypatch.setattr(checked_pairs, "_examine", examined)
-        return examine_pairs(pairs, jobs, **options)
+        return [checked.result for checked in examine_pairs(pairs, jobs, **options)]
 
     return by
 
@@ -132,6 +149,34 @@ def test_what_another_check_needs_is_kept(found):
     bodies, pairs = chain(20)
     assert len(found(pairs, id, keep=True)) == 20
     assert not any(body.gone for body in bodies)
+
+
+@pytest.mark.parametrize("jobs", [1, 3])
+@pytest.mark.parametrize(("heavy", "needed"), [(1, 10**9), (50, 10**7), (400, 10**8)])
+def test_pairs_share_the_steps_of_the_scene(jobs, heavy, needed, found):
+    """A few heavy pairs have the steps that the others leave. Where all are heavy, as many as the
+    steps last for are decided, and no number of threads changes which."""
+    _, pairs = chain(400)
+    wants = {id(pair): needed if k < heavy else 1000 for k, pair in enumerate(pairs)}
+    taken = []
+
+    def examine(pair):
+        steps = min(wants[id(pair)], pair.steps)
+        taken.append(steps)
+        return FakeChecked(steps == wants[id(pair)], steps, steps < wants[id(pair)])
+
+    told = []
+    decided = found(pairs, examine, jobs, progress=lambda done, total: told.append((done, total)))
+    most = STEPS_OF_SCENE + 24 * STEPS_OF_TRIANGLE * 400
+    assert sum(taken) <= most
+    assert told[-1] == (400, 400)
+    assert all(before <= after for (before, _), (after, _) in pairwise(told))
+    assert all(decided[heavy:])
+    if heavy * needed * 2 <= STEPS_OF_SCENE:
+        assert all(decided)
+    else:
+        assert sum(decided[:heavy]) >= STEPS_OF_SCENE // (4 * needed)
+    assert decided == found(pairs, examine, 1)
 
 
 def test_no_pairs_at_all():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
 from typing import NoReturn
 
 import pytest
@@ -9,9 +11,11 @@ import pytest
 from satcheck import core
 from satcheck.audit import checked_pairs
 from satcheck.audit.check import check
+from satcheck.audit.finding import OPEN_GAP
+from satcheck.audit.pair import MOST_STEPS
 from satcheck.audit.settings import Settings
-from satcheck.audit.stages.relation import TOO_MANY_STEPS
-from satcheck.report.report import INTERNAL_ERROR
+from satcheck.audit.stages.relation import NO_STEPS_LEFT, TOO_MANY_STEPS
+from satcheck.report.report import INTERNAL_ERROR, Finding
 from satcheck.scene import load_scene
 from satcheck.scene.errors import Refused
 from satcheck.scene.inspect import ErrorsOf
@@ -34,3 +38,60 @@ def test_a_mesh_beyond_the_budget_is_refused() -> None:
     with pytest.raises(Refused) as refused, ErrorsOf("knot.obj"):
         spent()
     assert (refused.value.code, refused.value.file) == ("too-many-steps", "knot.obj")
+
+
+def box(low: Sequence[float], high: Sequence[float], first: int) -> str:
+    """A closed box as text of an OBJ file. first: the number of its first vertex."""
+    corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    faces = (1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)
+    points = [[(low[k], high[k])[c[k]] for k in range(3)] for c in corners]
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points]
+    lines += ["f " + " ".join(str(first - 1 + v) for v in face) for face in faces]
+    return "".join(f"{line}\n" for line in lines)
+
+
+@pytest.fixture
+def in_a_slot(tmp_path: Path) -> list[Path]:
+    """Two boxes with a slot between them, and a third one in the slot, 0.25 from both."""
+    slotted, between = tmp_path / "slotted.obj", tmp_path / "between.obj"
+    slotted.write_text(box((0, 0, 0), (1, 4, 4), 1) + box((2, 0, 0), (3, 4, 4), 9))
+    between.write_text(box((1.25, 1, 1), (1.75, 2, 2), 1))
+    return [slotted, between]
+
+
+@pytest.mark.parametrize("clearance", [None, 0.25, 1.0])
+def test_a_gap_beyond_the_budget_leaves_the_pair_separated(
+    clearance: float | None, in_a_slot: list[Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings = Settings(clearance=clearance, tolerance=0.01, distance=True)
+    decided = finding_within(MOST_STEPS, in_a_slot, settings, monkeypatch)
+    assert (decided.relation, decided.distance) == (
+        "near" if clearance == 1.0 else "separated",
+        0.25,
+    )
+    steps = [
+        finding_within(count, in_a_slot, settings, monkeypatch) for count in range(1, 9000, 100)
+    ]
+    relations = [each.relation for each in steps]
+    assert relations[0] == "indeterminate"
+    assert steps[0].reason == NO_STEPS_LEFT
+    unmeasured = [each for each in steps if each.reason == OPEN_GAP]
+    assert unmeasured
+    for each in unmeasured:
+        assert (each.relation, each.exact_relation, each.distance) == (
+            "separated",
+            "separated",
+            None,
+        )
+        assert each.severity == ("none" if clearance is None else "warning")
+        assert each.undecided == (None if clearance is None else "limit")
+    assert relations[-1] == decided.relation
+
+
+def finding_within(
+    steps: int, files: list[Path], settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> Finding:
+    """Return the finding of two files if the climb may take so many steps."""
+    monkeypatch.setattr(checked_pairs, "_steps_of", lambda _: steps)
+    [finding] = check(load_scene(files), settings).findings
+    return finding

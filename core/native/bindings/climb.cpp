@@ -41,10 +41,10 @@ Rung rung_from(const std::string& name) {
   throw std::invalid_argument("a rung is \"aabb\", \"obb\", \"hull\" or \"triangles\", not \"" + name + "\"");
 }
 
-ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone = false) {
+ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone = false, std::uint64_t steps = kNoEnd) {
   const auto& [a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance] = pair;
   if (!a || !b) throw std::invalid_argument("a pair lacks a body");
-  return {a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance, alone, method};
+  return {a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance, alone, method, steps};
 }
 
 void bind_geometry(nb::module_& m) {
@@ -115,8 +115,6 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing_of(const Climb& 
   return std::pair(a, b);
 }
 
-bool is_decided(const Climb& climb) { return !climb.triangles || climb.triangles->decided; }
-
 double deepest(const Climb& climb) {
   return std::fmax(climb.least_depth.value_or(0), climb.way_within ? climb.way_within->deepest : 0);
 }
@@ -125,7 +123,9 @@ void bind_result(nb::module_& m) {
   nb::class_<Climb>(m, "Climb", R"(The verdict of the ladder on a pair, and the results of its rungs; None for rungs that the climb did not reach.
 
 relation      of the bodies, without a touch band; "indeterminate" if `hole` leaves it open, or if it is not `decided`.
-decided       False: deciding takes more steps than a pair may.
+decided       False: deciding takes more steps than the climb may.
+steps         that the climb took. too_few_steps: it may take no more, which leaves the relation open, or only the band or
+              the gap.
 settled       a rung decided the pair. Else a higher rung may decide more: the bodies are apart by gap_lower, but not
               by more than gap_limit, or they may overlap.
 proven        the relation is proven. gap_lower: a proven lower bound of the distance; 0.0: none is known.
@@ -148,8 +148,10 @@ triangles     the relation of the meshes.
 nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, triangles; band_nanoseconds: of the touch
               band or the gap.)")
       .def_prop_ro("relation",
-                   [](const Climb& c) { return hole_in_the_way(c) || !is_decided(c) ? "indeterminate" : name_of(c.verdict.relation); })
-      .def_prop_ro("decided", &is_decided)
+                   [](const Climb& c) { return hole_in_the_way(c) || !c.decided ? "indeterminate" : name_of(c.verdict.relation); })
+      .def_ro("decided", &Climb::decided)
+      .def_ro("steps", &Climb::steps)
+      .def_ro("too_few_steps", &Climb::too_few_steps)
       .def_prop_ro("settled", [](const Climb& c) { return c.verdict.settled; })
       .def_prop_ro("proven", [](const Climb& c) { return c.verdict.proven; })
       .def_prop_ro("gap_lower", [](const Climb& c) { return c.verdict.gap; })
@@ -180,13 +182,14 @@ nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, tria
 // A batch on its way up, in threads of its own; on one thread it climbs when its result is taken.
 class Climbing {
  public:
-  Climbing(const nb::list& pairs, const std::string& last, unsigned threads, bool alone, const std::string& method) {
+  Climbing(const nb::list& pairs, const std::string& last, unsigned threads, bool alone, const std::string& method,
+           std::uint64_t steps) {
     const MethodChoice choice = method_from(method);
     std::vector<ClimbRequest> requests;
     requests.reserve(pairs.size());
     for (const nb::handle pair : pairs) {
       pairs_.push_back(nb::tuple(pair));
-      requests.push_back(request_from(nb::cast<PairTuple>(pairs_.back()), choice, alone));
+      requests.push_back(request_from(nb::cast<PairTuple>(pairs_.back()), choice, alone, steps));
     }
     // Deferred climbs run in the thread that takes the results, where signals arrive.
     const auto poll = [this, deferred = threads == 1](const SearchState&) {
@@ -244,20 +247,21 @@ A pair is (a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance). A clim
 beyond gap_limit, or at the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band.
 depth_a, depth_b: a point deeper than that in A and in B shows an overlap that no tolerance of the surfaces explains.
 wants_distance: measure every gap. threads: 0: one a core; on one thread the pairs climb when the results are taken.
-alone: there is one pair, and no other needs its bodies. method: between convex hulls, as in check_pairs.)")
-      .def(nb::init<const nb::list&, const std::string&, unsigned, bool, const std::string&>(), "pairs"_a,
-           "last"_a = "triangles", "threads"_a = 0, "alone"_a = false, "method"_a = "auto")
+alone: there is one pair, and no other needs its bodies. method: between convex hulls, as in check_pairs. steps: the
+most of each pair.)")
+      .def(nb::init<const nb::list&, const std::string&, unsigned, bool, const std::string&, std::uint64_t>(), "pairs"_a,
+           "last"_a = "triangles", "threads"_a = 0, "alone"_a = false, "method"_a = "auto", "steps"_a = kNoEnd)
       .def("results", &Climbing::results,
            R"(Waits, then returns the results, only once: a Climb for each pair, the same for any number of threads; None: the climb
 failed, and climb() raises for this pair.)");
   m.def("climb",
-        [](const nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>& pair, const std::string& first, const std::string& last, const std::string& method) {
-          const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method));
+        [](const nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>& pair, const std::string& first, const std::string& last, const std::string& method, std::uint64_t steps) {
+          const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method), false, steps);
           const Rung from = rung_from(first), to = rung_from(last);
           const nb::gil_scoped_release release;
           return climb(request, from, to, interrupting());
         },
-        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto",
+        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto", "steps"_a = kNoEnd,
         "One pair of Climbing, from the rung `first` on.");
   m.def("crossing_depth",
         [](const Surface& a, const Surface& b, std::size_t triangle_a, std::size_t triangle_b) {
@@ -269,7 +273,9 @@ failed, and climb() raises for this pair.)");
         "a"_a, "b"_a, "triangle_a"_a, "triangle_b"_a, ReleaseGil(),
         R"(A proven lower bound of the depth of two surfaces from one pair of triangles that cross; 0.0 unless both triangles are
 completely boundary.)");
-  m.def("nested_depth", &nested_depth, "a"_a, "b"_a, ReleaseGil(),
+  m.def("nested_depth",
+        [](PlacedGeometry& a, PlacedGeometry& b) { return nested_depth(a, b, interrupting()); },
+        "a"_a, "b"_a, ReleaseGil(),
         "A proven lower bound of the depth of nested bodies: the inner one stays inside until the surfaces meet.");
 }
 

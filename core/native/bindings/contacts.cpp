@@ -68,7 +68,7 @@ pair may; within_budget is False then. Nothing is listed in both cases.)")
       .def_ro("complete", &SurfaceIntersection::complete)
       .def_ro("within_budget", &SurfaceIntersection::within_budget);
   const auto within_budget = [](const Surface& a, const Surface& b, std::size_t max_pairs) {
-    Budget budget = budget_of_pair(a, b, interrupting());
+    Budget budget = budget_of_pair(a.mesh, b.mesh, interrupting());
     return surface_intersection(a, b, max_pairs, &budget);
   };
   m.def("surface_intersection", within_budget, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),

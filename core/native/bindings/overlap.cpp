@@ -39,11 +39,11 @@ too many pairs of triangles meet, or if it takes more steps than a pair may; not
       .def_ro("within_limits", &OverlapComponents::within_limits)
       .def_ro("components", &OverlapComponents::components, nb::rv_policy::reference_internal);
   const auto described = [](const Surface& a, const Surface& b, std::size_t max_pairs) {
-    Budget budget = budget_of_pair(a, b, interrupting());
+    Budget budget = budget_of_pair(a.mesh, b.mesh, interrupting());
     return overlap_components(a, b, max_pairs, Unresolved::described, &budget);
   };
   const auto passes = [](const Surface& a, const Surface& b, std::size_t max_pairs) {
-    Budget budget = budget_of_pair(a, b, interrupting());
+    Budget budget = budget_of_pair(a.mesh, b.mesh, interrupting());
     return passes_through(a, b, max_pairs, &budget);
   };
   m.def("overlap_components", described, "a"_a, "b"_a, "max_pairs"_a, nb::call_guard<nb::gil_scoped_release>(),

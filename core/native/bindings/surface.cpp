@@ -121,14 +121,16 @@ that of the surfaces without fills. decided: False if that takes more steps than
                    })
       .def_ro("box_tests", &MeshRelation::box_tests)
       .def_ro("triangle_tests", &MeshRelation::triangle_tests)
+      .def_ro("steps", &MeshRelation::steps)
       .def_ro("edge_tests", &MeshRelation::edge_tests, "Of the outlines of prisms; None for other bodies.");
   m.def("mesh_relation",
-        [](const Surface& a, const Surface& b) { return mesh_relation(a, b, interrupting()); },
-        "a"_a, "b"_a, ReleaseGil(),
+        [](const Surface& a, const Surface& b, std::uint64_t steps) { return mesh_relation(a, b, interrupting(), steps); },
+        "a"_a, "b"_a, nb::kw_only(), "steps"_a = kNoEnd, ReleaseGil(),
         R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
 "touching", "penetrating" (interiors overlap, or a surface crosses a sheet), "contains" (b strictly inside a),
 "inside" (a strictly inside b), "coincident" (the same body, however triangulated). A body is the points of winding
-number other than 0, and its sheets: walls of no thickness, in which nothing can be, and which nothing can cross.)");
+number other than 0, and its sheets: walls of no thickness, in which nothing can be, and which nothing can cross. Not
+decided within so many steps, or those that any pair may take, the relation says nothing.)");
 }
 
 void bind_mesh_distance(nb::module_& m) {
@@ -149,11 +151,11 @@ another also has a distance from its surface, so call mesh_relation first.)");
   m.def("compare_gap",
         [](const Surface& a, const Surface& b, double length) {
           if (!(length >= 0)) throw std::invalid_argument("the length must not be negative");
-          return compare_gap(a, b, length);
+          return compare_gap(a, b, length, interrupting());
         },
         "a"_a, "b"_a, "length"_a, ReleaseGil(),
         R"(-1, 0 or 1: the distance of two surfaces without a common point is smaller than, equal to, or larger than the
-length. Decided exactly.)");
+length. Decided exactly. Raises TooManySteps.)");
   m.def("moves_within",
         [](const Mesh& mesh, const Tuple3& move, double length) {
           return moves_within(mesh.vertices, finite_point(move), length);

@@ -57,10 +57,20 @@ double share_within(const Aabb& box, const Aabb& other) {
 class Climber {
  public:
   Climber(const ClimbRequest& request, Rung first, Rung last, const Poll& poll)
-      : request_(request), first_(first), last_(last), poll_(poll) {}
+      : request_(request),
+        first_(first),
+        last_(last),
+        budget_(budget_of_pair(*request.a->shared().mesh(), *request.b->shared().mesh(), poll, request.steps)) {}
 
   Climb take() {
-    climb_rungs();
+    try {
+      climb_rungs();
+    } catch (const BudgetSpent&) {  // the relation is decided, and the gap or the band is not
+      climb_.gap.reset();
+      climb_.way_within.emplace();
+    }
+    climb_.steps = budget_.spent();
+    climb_.too_few_steps = budget_.is_spent();
     climb_.verdict = verdict_of(request_, climb_);
     return climb_;
   }
@@ -135,9 +145,9 @@ class Climber {
     }
     if (overlap && boxes_nest()) {
       timed(kNesting, [&] {
-        const MeshRelation nested = mesh_relation(*request_.a->surface(), *request_.b->surface(), poll_);
-        if (!nested.decided) throw BudgetSpent();
-        climb_.nesting = nested.relation;
+        const MeshRelation nested = mesh_relation(*request_.a->surface(), *request_.b->surface(), budget_);
+        climb_.decided = nested.decided;
+        if (nested.decided) climb_.nesting = nested.relation;
         return true;
       });
     }
@@ -214,15 +224,16 @@ class Climber {
         make_surfaces([&](PlacedGeometry& body) {
           return body.shared().surface_near(reach_of(&body == request_.a ? *request_.b : *request_.a));
         });
-        climb_.triangles = simple_relation(*a_, *b_);
+        climb_.triangles = simple_relation(*a_, *b_, budget_);
       }
       if (!climb_.triangles) {
         make_whole_surfaces();
-        climb_.triangles = mesh_relation(*a_, *b_, poll_);
+        climb_.triangles = mesh_relation(*a_, *b_, budget_);
       }
       return true;
     });
-    if (!climb_.triangles->decided) return;
+    climb_.decided = climb_.triangles->decided;
+    if (!climb_.decided) return;
     const Relation relation = climb_.triangles->relation;
     if (relation == Relation::separated) {
       timed(kBand, [&] { return measure_gap(); });
@@ -235,12 +246,12 @@ class Climber {
   bool explain_overlap() {
     const MeshRelation& relation = *climb_.triangles;
     if (a_->solid && b_->solid) {
-      climb_.thick = has_thick_point(*a_, *b_, relation, largest_coordinate(), request_.depth());
+      climb_.thick = has_thick_point(*a_, *b_, relation, largest_coordinate(), request_.depth(), &budget_);
     }
     if (climb_.thick.value_or(false) || request_.tolerance == 0) return true;
-    climb_.least_depth = least_depth(*a_, *b_, largest_coordinate(), relation);
+    climb_.least_depth = least_depth(*a_, *b_, largest_coordinate(), relation, &budget_);
     if (*climb_.least_depth > request_.tolerance) return true;
-    climb_.way_within = find_way_within(*request_.a, *request_.b, request_.tolerance, crossing_of(relation), poll_);
+    climb_.way_within = find_way_within(*request_.a, *request_.b, request_.tolerance, crossing_of(relation), budget_);
     return true;
   }
 
@@ -249,15 +260,14 @@ class Climber {
     if (request_.gap_limit == 0) return false;
     if (!a_) make_whole_surfaces();
     const double rounding = chain_rounding(largest_coordinate());
-    Budget budget = Budget::that_stops(kMostSteps, poll_);
-    climb_.gap = mesh_distance(*a_, *b_, request_.wants_distance ? INFINITY : request_.tolerance + rounding, {}, &budget);
-    if (!(a_->solid && b_->solid)) climb_.gap_of_holes = distance_of_holes(*a_, *b_, climb_.gap->distance, &budget);
+    climb_.gap = mesh_distance(*a_, *b_, request_.wants_distance ? INFINITY : request_.tolerance + rounding, {}, &budget_);
+    if (!(a_->solid && b_->solid)) climb_.gap_of_holes = distance_of_holes(*a_, *b_, climb_.gap->distance, &budget_);
     return true;
   }
 
   const ClimbRequest& request_;
   Rung first_, last_;
-  const Poll& poll_;
+  Budget budget_;
   std::shared_ptr<Surface> a_, b_;  // in the world, perhaps refined only near the other body
   Climb climb_;
 };

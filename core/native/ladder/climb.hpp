@@ -29,6 +29,7 @@ struct ClimbRequest {
   // No other pair needs these bodies, so data made for this pair serve no other.
   bool alone = false;
   MethodChoice method = MethodChoice::automatic;  // between the convex hulls
+  std::uint64_t steps = kNoEnd;                   // the most of the climb, beside budget_of_pair()
 
   // A point deeper than this in both closed bodies is beyond every band.
   double depth() const { return std::fmax(depth_a, depth_b); }
@@ -40,7 +41,7 @@ enum class BoxOutcome : std::uint8_t { not_asked, sheared, unturned, apart, meet
 // Index of each cost: the rungs in order, nesting after the hulls, then the touch band or the gap.
 enum Clock : std::size_t { kBoxes, kOriented, kHulls, kNesting, kTriangles, kBand };
 
-// The result and the cost of each rung; empty for rungs that the climb did not reach.
+// The result and the cost of each rung; empty for rungs that the climb did not reach, or did not finish.
 struct Climb {
   Verdict verdict;
   double box_gap = 0;  // a proven lower bound of the gap of the world boxes
@@ -58,6 +59,10 @@ struct Climb {
   std::optional<MeshDistance> gap;      // of separate surfaces
   std::optional<double> gap_of_holes;   // the fill of a hole may be this near, nearer than `gap`
   std::array<std::int64_t, kBand + 1> nanoseconds{};
+  std::uint64_t steps = 0;  // that the climb took
+  // decided: the relation is. too_few_steps: a rung was not finished, which leaves the relation open, or only the band or
+  // the gap.
+  bool decided = true, too_few_steps = false;
 };
 
 // From `first` to `last`. `last` runs even if it cannot settle the pair. Throws what making a body throws. poll: called

@@ -38,9 +38,10 @@ Wall nearest_wall(const Mesh& mesh, Vec3 p) {
 
 }  // namespace
 
-bool has_thick_point(const Surface& a, const Surface& b, const MeshRelation& relation, double largest, double least) {
+bool has_thick_point(const Surface& a, const Surface& b, const MeshRelation& relation, double largest, double least,
+                     Budget* budget) {
   const double enough = least + chain_rounding(largest);
-  const auto common = common_point(a, b, relation, enough);
+  const auto common = common_point(a, b, relation, enough, budget);
   return common && common->depth > enough;
 }
 

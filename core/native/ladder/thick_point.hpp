@@ -8,8 +8,9 @@
 namespace satcheck {
 
 // Whether a point deeper than `least` in both solids was found. False: there may still be one. relation: with a common
-// interior. largest: the largest |coordinate| of both.
-bool has_thick_point(const Surface& a, const Surface& b, const MeshRelation& relation, double largest, double least);
+// interior. largest: the largest |coordinate| of both. Throws BudgetSpent.
+bool has_thick_point(const Surface& a, const Surface& b, const MeshRelation& relation, double largest, double least,
+                     Budget* budget = nullptr);
 
 // The same for convex solids that overlap, by the planes of their triangles. hulls: their signed distance.
 bool has_thick_point(const Mesh& a, const Mesh& b, const PairResult& hulls, double least);

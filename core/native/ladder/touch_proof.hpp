@@ -14,10 +14,11 @@ double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle
 // Whether they prove a depth of more than `length`, decided exactly.
 bool crosses_deeper(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b, double length);
 
-// For nested bodies: the inner one stays inside at least until the surfaces meet.
-double nested_depth(PlacedGeometry& a, PlacedGeometry& b);
+// For nested bodies: the inner one stays inside at least until the surfaces meet. Throws BudgetSpent. poll: called now
+// and then.
+double nested_depth(PlacedGeometry& a, PlacedGeometry& b, const Poll& poll = {});
 
-// The bound that applies to this relation. largest: the largest |coordinate| of both.
-double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& relation);
+// The bound that applies to this relation. largest: the largest |coordinate| of both. Throws BudgetSpent.
+double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& relation, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -18,27 +18,29 @@ namespace {
 
 constexpr int kWalls = 3;
 
+// Measured steps of moving a triangle with its share of the tree.
+constexpr std::uint64_t kMoveWork = 50;
+
 // The computed length of a unit direction times the tolerance exceeds the tolerance by no more than this factor.
 constexpr double kToRounding = 1 + 16 * kUnitRoundoff;
 
 // Moves A many times without rebuilding its tree.
 class Trials {
  public:
-  Trials(const Surface& a, const Surface& b, const Poll& poll, Budget& budget)
-      : still_(a), moved_(a), b_(b), poll_(poll), budget_(budget) {}
+  Trials(const Surface& a, const Surface& b, Budget& budget) : still_(a), moved_(a), b_(b), budget_(budget) {}
 
   MeshRelation after(Vec3 move) {
-    const Surface& moved = moved_.at(move);
+    budget_.spend(kMoveWork * still_.mesh.triangles.size());
+    const Surface& moved = moved_.at(move, &budget_);
     require_in_range(moved.mesh.vertices, "moved vertex");
-    if (is_welded(moved.mesh)) return mesh_relation(moved, b_, poll_, &budget_);
-    return mesh_relation(make_surface(moved.mesh, still_.solid), b_, poll_, &budget_);
+    if (is_welded(moved.mesh)) return mesh_relation(moved, b_, budget_);
+    return mesh_relation(make_surface(moved.mesh, still_.solid), b_, budget_);
   }
 
  private:
   const Surface& still_;
   MovedSurface moved_;
   const Surface& b_;
-  const Poll& poll_;
   Budget& budget_;
 };
 
@@ -50,10 +52,8 @@ bool is_free(const MeshRelation& found) {
 // the order of the bodies does not matter.
 class Search {
  public:
-  Search(PlacedGeometry& a, PlacedGeometry& b, double tolerance, const Poll& poll)
-      : a_(a), b_(b), of_a_(a.surface()), of_b_(b.surface()), poll_(poll), trials_(*of_a_, *of_b_, poll_, budget_), tolerance_(tolerance) {}
-  Search(const Search&) = delete;  // the trials refer to the budget
-  Search& operator=(const Search&) = delete;
+  Search(PlacedGeometry& a, PlacedGeometry& b, double tolerance, Budget& budget)
+      : a_(a), b_(b), of_a_(a.surface()), of_b_(b.surface()), budget_(budget), trials_(*of_a_, *of_b_, budget), tolerance_(tolerance) {}
 
   std::optional<Vec3> out_of_hulls() {
     const PairResult found = check_pair(*a_.hull_shape(), {}, *b_.hull_shape(), {}, Query::depth);
@@ -125,7 +125,7 @@ class Search {
       if (!is_short && (hidden_ || !(scaled_norm(candidate) <= tolerance_ * kToRounding))) {
         continue;
       }
-      if (!is_free(trials_.after(candidate)) || !is_free(Trials(*of_b_, *of_a_, poll_, budget_).after(-candidate))) continue;
+      if (!is_free(trials_.after(candidate)) || !is_free(Trials(*of_b_, *of_a_, budget_).after(-candidate))) continue;
       if (is_short) return candidate;
       hidden_ = true;
     }
@@ -160,29 +160,33 @@ class Search {
 
   PlacedGeometry &a_, &b_;
   std::shared_ptr<Surface> of_a_, of_b_;
-  const Poll& poll_;
-  Budget budget_{kMostSteps};  // of all trials: when it is spent, no further one is decided
+  Budget& budget_;  // of all trials
   Trials trials_;
   double tolerance_, deepest_ = 0;
   bool deeper_ = false, hidden_ = false, hulls_are_within_ = false;
 };
 
 WayWithin way_in_order(PlacedGeometry& a, PlacedGeometry& b, double tolerance, std::optional<ContactPair> crossing,
-                       const Poll& poll) {
-  Search search(a, b, tolerance, poll);
-  std::optional<Vec3> move = search.out_of_hulls();
-  if (!move && crossing) move = search.off(*crossing);
-  if (!move && crossing && !search.is_deeper()) move = search.straight_off(*crossing);
+                       Budget& budget) {
+  Search search(a, b, tolerance, budget);
+  std::optional<Vec3> move;
+  try {
+    move = search.out_of_hulls();
+    if (!move && crossing) move = search.off(*crossing);
+    if (!move && crossing && !search.is_deeper()) move = search.straight_off(*crossing);
+  } catch (const BudgetSpent&) {
+    // What the hulls and the triangles have shown stands.
+  }
   return search.found(move);
 }
 
 }  // namespace
 
 WayWithin find_way_within(PlacedGeometry& a, PlacedGeometry& b, double tolerance, std::optional<ContactPair> crossing,
-                          const Poll& poll) {
-  if (comes_before(*a.surface(), *b.surface())) return way_in_order(a, b, tolerance, crossing, poll);
+                          Budget& budget) {
+  if (comes_before(*a.surface(), *b.surface())) return way_in_order(a, b, tolerance, crossing, budget);
   if (crossing) std::swap(crossing->a, crossing->b);
-  WayWithin found = way_in_order(b, a, tolerance, crossing, poll);
+  WayWithin found = way_in_order(b, a, tolerance, crossing, budget);
   if (found.move) found.move = Vec3{} - *found.move;  // no negative zeros
   return found;
 }

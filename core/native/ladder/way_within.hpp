@@ -25,8 +25,8 @@ struct WayWithin {
 };
 
 // For bodies that overlap. crossing: triangles that meet; empty: none are known, and only the hulls are tried. Ends
-// early if a depth beyond the tolerance is proven. The steps of all trials are limited. poll: called now and then.
+// early if a depth beyond the tolerance is proven, or if the budget, which stops, is spent.
 WayWithin find_way_within(PlacedGeometry& a, PlacedGeometry& b, double tolerance, std::optional<ContactPair> crossing,
-                          const Poll& poll = {});
+                          Budget& budget);
 
 }  // namespace satcheck

@@ -34,7 +34,8 @@ int compare_along_axes(const Aabb& a, const Aabb& b, double length) {
 
 class GapComparison {
  public:
-  GapComparison(const Surface& a, const Surface& b, double length) : a_(a), b_(b), length_(length) {}
+  GapComparison(const Surface& a, const Surface& b, double length, const Poll& poll)
+      : a_(a), b_(b), length_(length), budget_(budget_of_pair(a.mesh, b.mesh, poll)) {}
 
   int sign() {
     const Aabb &box_a = a_.bvh.nodes[0].box, &box_b = b_.bvh.nodes[0].box;
@@ -59,12 +60,14 @@ class GapComparison {
 
   const Surface &a_, &b_;
   double length_;
-  Budget budget_ = Budget::that_stops(kMostSteps);
+  Budget budget_;
   int least_ = 1;
 };
 
 }  // namespace
 
-int compare_gap(const Surface& a, const Surface& b, double length) { return GapComparison(a, b, length).sign(); }
+int compare_gap(const Surface& a, const Surface& b, double length, const Poll& poll) {
+  return GapComparison(a, b, length, poll).sign();
+}
 
 }  // namespace satcheck

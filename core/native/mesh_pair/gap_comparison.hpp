@@ -5,7 +5,7 @@
 
 namespace satcheck {
 
-// Sign of distance - length, for surfaces without a common point.
-int compare_gap(const Surface& a, const Surface& b, double length);
+// Sign of distance - length, for surfaces without a common point. Throws BudgetSpent. poll: called now and then.
+int compare_gap(const Surface& a, const Surface& b, double length, const Poll& poll = {});
 
 }  // namespace satcheck

@@ -1,6 +1,7 @@
 #include "mesh_pair/mesh_pair.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -162,9 +163,9 @@ MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted
   return with_counts(relation_of(a, b, contacts, wanted, budget), contacts);
 }
 
-std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Surface& b) {
-  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop);
-  const auto result = simple_relation_of(a, b, contacts, nullptr);
+std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Surface& b, Budget* budget) {
+  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop, budget);
+  const auto result = simple_relation_of(a, b, contacts, budget);
   return result ? std::optional(with_counts(*result, contacts)) : std::nullopt;
 }
 
@@ -188,47 +189,55 @@ MeshRelation undecided() {
   return result;
 }
 
-// payer: pays for the steps, if any. most: of them.
+// What `ask` returns, unless the budget is spent.
 template <class Ask>
-MeshRelation within_budget(const Surface& a, const Surface& b, std::uint64_t most, Budget* payer, const Poll& poll, Ask ask) {
-  Budget budget = budget_of_pair(a, b, poll, most);
-  MeshRelation result;
+std::invoke_result_t<Ask> within_budget(Ask ask) {
   try {
-    result = ask(budget);
+    return ask();
   } catch (const BudgetSpent&) {
-    result = undecided();
+    return undecided();
   }
-  spend(payer, budget.spent());
-  return result;
 }
 
 }  // namespace
 
-Budget budget_of_pair(const Surface& a, const Surface& b, Poll poll, std::uint64_t most) {
-  const std::uint64_t triangles = a.mesh.triangles.size() + b.mesh.triangles.size();
-  return Budget::that_stops(std::min(kPairWork + kWorkOfTriangle * triangles, most), std::move(poll));
+Budget budget_of_pair(const Mesh& a, const Mesh& b, Poll poll, std::uint64_t most) {
+  const std::uint64_t triangles = a.triangles.size() + b.triangles.size();
+  return Budget::that_stops(std::min({kPairWork + kWorkOfTriangle * triangles, kMostSteps, most}), std::move(poll));
 }
 
-MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll, Budget* payer) {
-  const std::uint64_t most = payer != nullptr ? payer->left() : kMostSteps;
-  return within_budget(a, b, most, payer, poll, [&](Budget& budget) { return relation_of(a, b, Wanted::relation, budget); });
+MeshRelation mesh_relation(const Surface& a, const Surface& b, Budget& budget) {
+  const std::uint64_t before = budget.spent();
+  MeshRelation result = within_budget([&] { return relation_of(a, b, Wanted::relation, budget); });
+  result.steps = budget.spent() - before;
+  return result;
+}
+
+MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll, std::uint64_t most) {
+  Budget budget = budget_of_pair(a.mesh, b.mesh, poll, most);
+  return mesh_relation(a, b, budget);
 }
 
 MeshRelation overlap_relation(const Surface& a, const Surface& b, Budget* budget) {
   const Poll poll = [&](const SearchState& state) {
     if (budget != nullptr) budget->tell_again(state.work);
   };
-  return within_budget(a, b, kMostSteps, budget, poll, [&](Budget& steps) { return relation_of(a, b, Wanted::overlap, steps); });
+  Budget steps = budget_of_pair(a.mesh, b.mesh, poll);
+  const MeshRelation result = within_budget([&] { return relation_of(a, b, Wanted::overlap, steps); });
+  spend(budget, steps.spent());
+  return result;
 }
 
 MeshRelation closed_relation(const Surface& a, const Surface& b, Budget* budget) {
   return relation_of_points(a, b, Wanted::relation, budget);
 }
 
-std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b) {
-  if (comes_before(a, b)) return simple_relation_in_order(a, b);
-  const auto relation = simple_relation_in_order(b, a);
-  return relation ? std::optional(mirrored(*relation)) : std::nullopt;
+std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b, Budget& budget) {
+  return within_budget([&] {
+    if (comes_before(a, b)) return simple_relation_in_order(a, b, &budget);
+    const auto relation = simple_relation_in_order(b, a, &budget);
+    return relation ? std::optional(mirrored(*relation)) : std::nullopt;
+  });
 }
 
 }  // namespace satcheck

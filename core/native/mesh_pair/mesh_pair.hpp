@@ -40,13 +40,17 @@ struct MeshRelation {
   std::size_t box_tests = 0, triangle_tests = 0;
   std::optional<std::size_t> edge_tests;  // instead of both, if outlines of prisms decided
   std::size_t judged = 0;  // pairs of triangles in contact that needed samples
+  std::uint64_t steps = 0;  // that deciding took
 };
 
-// The steps that a question about a pair may take, with room for each triangle. poll: called now and then. most: a limit of these steps.
-Budget budget_of_pair(const Surface& a, const Surface& b, Poll poll, std::uint64_t most = kMostSteps);
+// The steps that a question about a pair may take, with room for each triangle. It stops. poll: called now and then.
+// most: a limit of these steps.
+Budget budget_of_pair(const Mesh& a, const Mesh& b, Poll poll, std::uint64_t most = kNoEnd);
 
-// Within budget_of_pair(). payer: pays for the steps; what it has left is a limit, too.
-MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll = {}, Budget* payer = nullptr);
+// Not decided if the budget, which stops, is spent on the way.
+MeshRelation mesh_relation(const Surface& a, const Surface& b, Budget& budget);
+// Within budget_of_pair().
+MeshRelation mesh_relation(const Surface& a, const Surface& b, const Poll& poll = {}, std::uint64_t most = kNoEnd);
 
 // The same if only a common interior matters, which is faster. `separated` may be touching. With `contains` or
 // `inside`, the inner body may reach the surface of the outer one.
@@ -57,6 +61,6 @@ MeshRelation closed_relation(const Surface& a, const Surface& b, Budget* budget 
 
 // The same for two closed surfaces with different boxes; empty unless one crossing settles the relation or there is no
 // contact. It visits little outside of the intersection of the two boxes.
-std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b);
+std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b, Budget& budget);
 
 }  // namespace satcheck

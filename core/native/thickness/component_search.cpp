@@ -24,9 +24,10 @@ double hull_bound(const ThicknessInterval& ball, const ThicknessGoal& goal) {
 
 }  // namespace
 
-ComponentSearch::ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal)
+ComponentSearch::ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal, const ThicknessInterval& known)
     : goal_(goal), budget_(goal.work, goal.poll) {
-  Budget of_pair = budget_of_pair(a, b, [this](const SearchState& state) { budget_.tell_again(state.work); });
+  budget_.note(known.lower, known.upper);
+  Budget of_pair = budget_of_pair(a.mesh, b.mesh, [this](const SearchState& state) { budget_.tell_again(state.work); });
   overlap_ = overlap_components(a, b, kMostPairs, Unresolved::left_out, &of_pair);
   if (!resolved()) return;
   balls_ = component_balls(a, b, overlap_);

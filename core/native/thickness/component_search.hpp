@@ -12,7 +12,8 @@ namespace satcheck {
 
 class ComponentSearch {
  public:
-  ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal);
+  // known: an interval of the whole overlap, told as the progress meanwhile.
+  ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal, const ThicknessInterval& known);
 
   // False: the components say nothing.
   bool resolved() const { return overlap_.resolved; }

@@ -311,7 +311,7 @@ ThicknessInterval search_thickness(const Surface& a, const Surface& b, const Thi
   if (!has_components || goal.work <= patience) return whole.run(goal.work);
   ThicknessInterval known = whole.run(patience);
   if (known.stop != ThicknessStop::work_spent) return known;
-  ComponentSearch components(a, b, goal);
+  ComponentSearch components(a, b, goal, known);
   if (!components.resolved()) return whole.run(goal.work);
   ThicknessInterval interval = components.bound(known);
   if (stop_of(interval, goal) == ThicknessStop::work_spent) {

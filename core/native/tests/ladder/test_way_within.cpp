@@ -37,7 +37,13 @@ Mesh corner(int walls, double slip) {
 WayWithin way_out(PlacedGeometry& a, PlacedGeometry& b, double band) {
   const MeshRelation found = mesh_relation(*a.surface(), *b.surface());
   CHECK(found.relation == Relation::penetrating && found.triangle_b != kNoTriangle);
-  return find_way_within(a, b, band, ContactPair{found.triangle_a, found.triangle_b});
+  Budget budget = Budget::that_stops(kMostSteps);
+  return find_way_within(a, b, band, ContactPair{found.triangle_a, found.triangle_b}, budget);
+}
+
+std::optional<Vec3> move_out_of_hulls(PlacedGeometry& a, PlacedGeometry& b) {
+  Budget budget = Budget::that_stops(kMostSteps);
+  return find_way_within(a, b, kBand, std::nullopt, budget).move;
 }
 
 void up_to_three_walls_are_left() {
@@ -57,9 +63,17 @@ void what_is_deeper_stays() {
 
 void without_a_crossing_only_the_hulls_are_left() {
   PlacedGeometry a = placed(cube()), b = placed(corner(1, kSlip)), beside = placed(box({1 - kSlip, 0, 0}, {2, 1, 1}));
-  CHECK(!find_way_within(a, b, kBand, std::nullopt).move);
-  const WayWithin found = find_way_within(a, beside, kBand, std::nullopt);
-  CHECK(found.move && std::fabs(found.move->x + kSlip) <= 2 * chain_rounding(2.0) && found.move->y == 0 && found.move->z == 0);
+  CHECK(!move_out_of_hulls(a, b));
+  const std::optional<Vec3> move = move_out_of_hulls(a, beside);
+  CHECK(move && std::fabs(move->x + kSlip) <= 2 * chain_rounding(2.0) && move->y == 0 && move->z == 0);
+}
+
+void a_spent_budget_leaves_the_band_open() {
+  PlacedGeometry a = placed(cube()), b = placed(corner(1, kSlip));
+  const MeshRelation crossing = mesh_relation(*a.surface(), *b.surface());
+  Budget few = Budget::that_stops(1);
+  const WayWithin found = find_way_within(a, b, kBand, ContactPair{crossing.triangle_a, crossing.triangle_b}, few);
+  CHECK(!found.move && found.side == BandSide::open && few.is_spent());
 }
 
 }  // namespace
@@ -68,4 +82,5 @@ UNIT(way_within) {
   up_to_three_walls_are_left();
   what_is_deeper_stays();
   without_a_crossing_only_the_hulls_are_left();
+  a_spent_budget_leaves_the_band_open();
 }
