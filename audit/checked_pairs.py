@@ -89,8 +89,7 @@ def _steps_of(pairs: Sequence[Pair]) -> int:
     """Return the most steps of the climbs of all pairs; of one pair, those that any may take."""
     if len(pairs) == 1:
         return MOST_STEPS
-    bodies = (body for pair in pairs for body in (pair.a, pair.b))
-    triangles = {id(body.shared): body.shared.triangles for body in bodies}
+    triangles = {id(body): body.shared.triangles for pair in pairs for body in (pair.a, pair.b)}
     return STEPS_OF_SCENE + STEPS_OF_TRIANGLE * sum(triangles.values())
 
 

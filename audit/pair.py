@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     from satcheck.report.sweep import Sweep
 
 
-# The most steps of the climbs of a scene, about five seconds, and more for each triangle of a mesh,
-# however often it is placed. Scenes of real bodies take far fewer: 20,000
-# bodies of the bench, with 16,000 pairs, 3,500 for a pair; chain links in contact 90,000. The
-# largest known are those of bolts that fill their holes, with the facets of a tessellator: up to
-# 60,000 for a triangle of two such bodies.
+# The most steps of the climbs of a scene, about five seconds, and more for each triangle of its
+# bodies. Scenes of real bodies take far fewer: 20,000 bodies of the bench, with 16,000 pairs, 3,500
+# for a pair; chain links in contact 90,000. The largest known are those of bolts that fill their
+# holes, with the facets of a tessellator: up to 60,000 for a triangle of two such bodies. A bolt
+# meets about three.
 STEPS_OF_SCENE = 5_000_000_000
-STEPS_OF_TRIANGLE = 500_000
+STEPS_OF_TRIANGLE = 200_000
 MOST_STEPS = 2**63
 # The most steps of the relations of moved bodies, in which a way out of a pair is verified, and
 # more for each triangle.
