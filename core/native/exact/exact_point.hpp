@@ -64,6 +64,7 @@ class LazyPoint {
 
 // Lazy versions of the functions above. The arguments must outlive the point.
 LazyPoint lazy_centroid(const std::array<Vec3, 3>& triangle);
+LazyPoint lazy_centroid(std::array<Vec3, 3>&& triangle) = delete;  // it has to live as long as the point
 LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, const Vec3& p, const Vec3& q);
 LazyPoint lazy_between(const LazyPoint& p, const LazyPoint& q, double wp, double wq);
 // Lazy versions for points that do not stay where they are: make() returns the exact point.

@@ -81,7 +81,8 @@ class Cavities {
 
   Around find_around(std::uint32_t component) const {
     for (const std::uint32_t t : members_[component]) {
-      const LazyPoint point = lazy_centroid(corners(t));
+      const Corners c = corners(t);
+      const LazyPoint point = lazy_centroid(c);
       const auto here = triangles_at(mesh_, bvh_, point, {}, budget_);
       if (!std::all_of(here.begin(), here.end(), [&](std::uint32_t u) { return of_triangle_[u] == component; })) continue;
       const Heading first = nearest_wall(bvh_.nodes[0].box, point.rounded);

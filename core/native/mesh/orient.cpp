@@ -200,7 +200,8 @@ class Nesting {
     const auto counts = [&](std::uint32_t t) { return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].solid; };
     std::optional<int> winding;
     for (const std::uint32_t t : patches_[patch].triangles) {
-      if ((winding = winding_number(mesh_, tree(), lazy_centroid(corners(t)), counts, budget_))) break;
+      const Corners c = corners(t);
+      if ((winding = winding_number(mesh_, tree(), lazy_centroid(c), counts, budget_))) break;
     }
     return winding != 0 && !crosses_another(patch);
   }

@@ -72,9 +72,9 @@ void lattices() {
   int of_kind[6] = {};
   for (int round = 0; round < rounds(4000); ++round) {
     WholeBoxes boxes_a = random_boxes(generator, 1 + round % 3, kSize);
-    WholeBoxes boxes_b = round % 50 == 0 ? cut(boxes_a) : random_boxes(generator, 1 + round / 3 % 3, kSize);
-    if (round % 50 == 1) boxes_a.push_back({{0, 0, 0}, {kSize, kSize, kSize}});
-    if (round % 50 == 2) boxes_b.push_back({{0, 0, 0}, {kSize, kSize, kSize}});
+    WholeBoxes boxes_b = round % 10 == 0 ? cut(boxes_a) : random_boxes(generator, 1 + round / 3 % 3, kSize);
+    if (round % 10 == 1) boxes_a.push_back({{0, 0, 0}, {kSize, kSize, kSize}});
+    if (round % 10 == 2) boxes_b.push_back({{0, 0, 0}, {kSize, kSize, kSize}});
     const PairFacts all = truth(boxes_a, boxes_b);
     const Vec3 shear = round % 2 == 0 ? Vec3{} : Vec3{round % 3 - 1.0, round % 5 - 2.0, round % 7 - 3.0};
     const Surface a = sheared(boxes_a, shear), b = sheared(boxes_b, shear);
