@@ -7,11 +7,13 @@ import random
 import numpy as np
 import pytest
 
-from satcheck._native.core import HullPoints
 from satcheck.core import (
+    Geometry,
     Hull,
     Mesh,
     PairResult,
+    PlacedGeometry,
+    Shape,
     Surface,
     check_pair,
     mesh_relation,
@@ -176,22 +178,17 @@ def bounds_of(found: PairResult) -> tuple[float, float]:
     return found.lower, found.upper
 
 
-def placed_by(points: HullPoints, matrix: Matrix) -> Hull:
-    hull = points.placed(matrix)
-    assert hull is not None
-    return hull
+def placed_hull(mesh: Mesh, matrix: Matrix) -> Shape:
+    return PlacedGeometry(Geometry(mesh, False), matrix, None, 0.0).hull_shape()
 
 
 @pytest.mark.parametrize("bumps", [0.3, 0.01, 0.0])
 def test_a_placed_hull_is_the_hull_of_the_placed_mesh(bumps: float) -> None:
     mesh = bumpy_ball(8, bumps)
-    points = HullPoints(mesh)
     probe = Hull([(0.0, 0, 0), (1.0, 0, 0), (0, 1.0, 0), (0, 0, 1.0)])
     asked = 0
     for matrix in matrices(9, 60):
-        placed = points.placed(matrix)
-        if placed is None:
-            continue
+        placed = placed_hull(mesh, matrix)
         expected = Hull(mesh.transformed(matrix).convex_hull())
         low, high = np.array(mesh.transformed(matrix).bounds)
         for corner in (low, high, 0.5 * (low + high), high + 0.3 * (high - low)):
@@ -211,28 +208,28 @@ def test_touching_placed_hulls_touch_exactly() -> None:
         np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)]),
         np.array([[0, 1, 3]]),
     )
-    points = HullPoints(cube)
-    here = placed_by(points, scaled(0.5))
+    here = placed_hull(cube, scaled(0.5))
     outcomes = [
-        check_pair(here, placed_by(points, scaled(0.5, move))).outcome
+        check_pair(here, placed_hull(cube, scaled(0.5, move))).outcome
         for move in (0.5, 0.5 + 2.0**-52, 0.5 - 2.0**-53)
     ]
     assert outcomes == ["touching", "separated", "penetrating"]
-    beside = placed_by(points, scaled(0.5, 0.5))
+    beside = placed_hull(cube, scaled(0.5, 0.5))
     assert check_pair(here, beside, method="sat").outcome == "touching"
 
 
 def test_inner_vertices_are_left_out() -> None:
     ring = bumpy_ball(10, 0.3)
-    assert HullPoints(ring).count < ring.vertex_count
-    assert HullPoints(bumpy_ball(10, 0.0)).count == bumpy_ball(10, 0.0).vertex_count
+    assert placed_hull(ring, scaled(2.0)).vertex_count < ring.vertex_count
+    ball = bumpy_ball(10, 0.0)
+    assert placed_hull(ball, scaled(2.0)).vertex_count == ball.vertex_count
 
 
-def test_no_placed_hull_where_rounding_could_turn_it_inside_out() -> None:
-    points = HullPoints(bumpy_ball(11))
-    assert points.placed(scaled(1.0, 1e12)) is None
-    assert points.placed(scaled(1.0, 1e6)) is not None
+def test_a_hull_that_rounding_could_turn_inside_out_is_that_of_the_placed_mesh() -> None:
+    ball, far = bumpy_ball(11), scaled(1.0, 1e12)
+    expected = Hull(ball.transformed(far).convex_hull())
+    assert placed_hull(ball, far).vertex_count == expected.vertex_count
     flat = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
-    assert HullPoints(flat).placed(IDENTITY) is None
+    assert placed_hull(flat, IDENTITY).dimension == 2
     with pytest.raises(ValueError, match="singular"):
-        points.placed(scaled(0.0))
+        placed_hull(ball, scaled(0.0))

@@ -14,7 +14,6 @@
 #include "bindings/arguments.hpp"
 #include "bindings/tuples.hpp"
 #include "convex/shape.hpp"
-#include "mesh/hull_points.hpp"
 #include "ladder/words.hpp"
 
 namespace nb = nanobind;
@@ -58,25 +57,6 @@ struct CylinderShape : Shape {};
 struct ConeShape : Shape {};
 struct EllipsoidShape : Shape {};
 
-void bind_hull_points(nb::module_& m) {
-  nb::class_<HullPoints>(m, "HullPoints",
-                         R"(The vertices of a mesh that can be corners of its convex hull after any affine map.)")
-      .def(nb::new_([](const Mesh& mesh) { return find_hull_points(mesh); }), nb::arg("mesh"),
-           nb::call_guard<nb::gil_scoped_release>())
-      .def_prop_ro("count", [](const HullPoints& h) { return h.points.size(); })
-      .def(
-          "placed",
-          [](const HullPoints& h, const std::array<double, 16>& matrix) -> std::optional<HullShape> {
-            auto shape = placed_hull(h, matrix);
-            if (!shape) return std::nullopt;
-            return HullShape{std::move(*shape)};
-          },
-          nb::arg("matrix"), nb::call_guard<nb::gil_scoped_release>(),
-          R"(The hull of the mesh placed by a 4x4 matrix, 16 numbers by rows, as a shape. Same as Mesh.transformed followed by
-convex_hull, but without sorting. None if rounding may have brought further vertices to its surface. Raises what
-Mesh.transformed raises.)");
-}
-
 template <class Kind, class Make>
 void def_init(nb::class_<Kind, Shape>& shape, const char* signature, Make make) {
   shape.def(
@@ -118,7 +98,6 @@ void bind_shapes(nb::module_& m) {
 Polytope. Computed exactly; may be flat, a segment or a point. ValueError when a coordinate is not finite, OverflowError when one is
 beyond 1e45 or the points are less than 1e-45 across: nothing is proven there.)");
   def_init(hull, "def __init__(self, points: NDArray[float64] | Sequence[Sequence[float]] | Polytope) -> None", hull_of);
-  bind_hull_points(m);
   nb::class_<BoxShape, Shape> box(m, "Box", "Box around the origin; half_extents (x, y, z) > 0.");
   def_init(box, "def __init__(self, half_extents: Sequence[float]) -> None", [](const nb::args& args, const nb::kwargs& kwargs) {
     return make_box(Arguments("Box", {"half_extents"}, args, kwargs).three_numbers(0));

@@ -61,7 +61,7 @@ std::vector<Vec3> without_negative_zeros(std::vector<Vec3> points) {
 
 struct Welding {
   Mesh mesh;
-  std::size_t duplicate_vertices = 0, unreferenced_vertices = 0;
+  std::size_t unreferenced_vertices = 0;
 };
 
 // 0 or 1 for each vertex. Bytes, because setting a bit would have to read its neighbours.
@@ -89,7 +89,6 @@ Welding weld_and_count(const Mesh& mesh) {
   std::vector<std::uint32_t> renumbered(points.size(), none);
   for (std::uint32_t v = 0; v < points.size(); ++v) {
     if (!referenced[v]) ++result.unreferenced_vertices;
-    if (first[v] != v) ++result.duplicate_vertices;
     if (!kept[v]) continue;
     renumbered[v] = static_cast<std::uint32_t>(result.mesh.vertices.size());
     result.mesh.vertices.push_back(points[v]);
@@ -210,7 +209,6 @@ Topology measure_topology(const Mesh& mesh) {
   const EdgeTable edges(welding.mesh.vertices.size(), welding.mesh.triangles);
   Topology topology = measure_welded(welding.mesh, edges);
   topology.vertices = mesh.vertices.size();
-  topology.duplicate_vertices = welding.duplicate_vertices;
   topology.unreferenced_vertices = welding.unreferenced_vertices;
   return topology;
 }
