@@ -308,7 +308,8 @@ def rank(finding: Finding) -> tuple[float, ...]:
 
 def _size(finding: Finding) -> tuple[int, float, float]:
     """An overlap is no thicker than deep, so its depth stands for a thickness that is unknown. One
-    without figures comes last: its boxes overlap by less than those that were measured."""
+    without figures comes last: its boxes overlap by less than those that were measured. Bodies that
+    overlap within the touch band only touch, and also have a thickness."""
     if finding.at_rest in OVERLAPS:
         deep = -inf if finding.depth is None else finding.depth
         thick = deep if finding.thickness is None else finding.thickness
@@ -316,7 +317,7 @@ def _size(finding: Finding) -> tuple[int, float, float]:
     if is_hit(finding):
         return (1, _first_time(finding), 0.0)
     gap = inf if finding.distance is None else finding.distance
-    return (2 + _MILDER.index(finding.at_rest), gap, 0.0)
+    return (2 + _MILDER.index(finding.at_rest), gap, -(finding.thickness or 0.0))
 
 
 def _first_time(hit: Finding) -> float:

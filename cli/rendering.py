@@ -181,7 +181,7 @@ def refuse_certificate(forms: Collection[str], *, wanted: bool) -> None:
 def refuse_of_poses(forms: Iterable[str], **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
     for form in (form for form in forms if kind_of(form) == "reports"):
-        raise click.UsageError(f"--format {form} takes one pose, and several are given")
+        raise click.UsageError(f"a report as {form} takes one pose, and several are given")
     for name in ("baseline", "certificate", "explain", "cross_check"):
         if options.get(name):
             option = name.replace("_", "-")

@@ -80,7 +80,7 @@ def picture_data(
         shown.append(stated | _lines(lines[-1], len(rims), drawn.middle))
     return {
         "title": headline(report, moments),
-        "summary": summary_line(report),
+        "summary": report.message if moments.note else summary_line(report),
         "verdict": report.summary.verdict,
         "unit": unit_of(report.units) or "",
         "up": up,

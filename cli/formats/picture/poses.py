@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.words import counted, is_listed, rank
 from satcheck.cli.formats.picture.moments import Moments
-from satcheck.cli.formats.samples import samples_verdict
+from satcheck.cli.formats.samples import samples_counts, samples_verdict
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import PairCounts, Report, Summary
 from satcheck.scene.bodies import IDENTITY
@@ -86,6 +86,8 @@ def all_poses(report: SamplesReport, scene: Scene) -> tuple[Report, Scene, Momen
     of = {finding.id: at[sample.number] for finding, sample in worst.values()}
     names = tuple(f"pose {sample.number}" for sample in shown)
     note = f"in {counted(report.summary.samples, 'pose')}"
+    if report.truncated is not None:
+        note = f"in {_those_listed(report)}"
     return _stated(report, findings), scene, Moments(names, placed, of, note)
 
 
@@ -95,8 +97,14 @@ def _instead(report: SamplesReport, sample: SampledPose | None) -> str:
         return (
             f"--pose '{json.dumps(sample.pose)}' -o pose.html draws it, with the files of the check"
         )
+    return f"it lists {_those_listed(report)}"
+
+
+def _those_listed(report: SamplesReport) -> str:
     listed = counted(len(report.samples), "pose")
-    return f"it lists {listed} of {report.summary.samples:,}"
+    if report.truncated is not None:
+        listed = f"the first {listed} with a finding,"
+    return f"{listed} of {report.summary.samples:,}"
 
 
 def _stated(report: SamplesReport, findings: Iterable[Finding]) -> Report:
@@ -114,7 +122,7 @@ def _stated(report: SamplesReport, findings: Iterable[Finding]) -> Report:
         units=report.units,
         settings=report.settings,
         summary=Summary(summary.verdict, counts, {}),
-        message=samples_verdict(report),
+        message=f"{samples_verdict(report)} {samples_counts(report)}",
         bodies=(),
         rules=report.rules,
         findings=tuple(findings),
