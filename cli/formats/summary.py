@@ -39,10 +39,13 @@ MESHES = {
 
 
 _STATES: tuple[BaselineState, ...] = ("accepted", "new", "worse", "undecided")
+# States of findings that the baseline has.
+_OF_KNOWN: tuple[BaselineState, ...] = ("unchanged", "accepted", "worse", "undecided")
 _UNDECIDED = (
-    " Undecided findings need figures: add --depth, --clearance or --volume, and update the "
-    "baseline from a report that has them."
+    " An undecided finding has no figure to compare, or one that is too wide or in another unit: "
+    "add --depth, --clearance or --volume, or update the baseline."
 )
+_UNKNOWN = " It has none of these pairs: are the paths those with which it was written?"
 
 
 def counts_line(report: Report) -> str:
@@ -159,8 +162,10 @@ class BesideBaseline(Struct):
         parts += [f"{self.states[s]:,} {s}" for s in _STATES if self.states[s]]
         passing = counted(self.absent, "more passes", "more pass")
         gone = f"; {passing} now: satcheck baseline prune" if self.absent else ""
-        undecided = _UNDECIDED if self.states["undecided"] else ""
-        return [f"Baseline: {', '.join(parts)}{gone}.{undecided}"]
+        advice = _UNDECIDED if self.states["undecided"] else ""
+        if self.states["new"] and not (self.absent or any(self.states[s] for s in _OF_KNOWN)):
+            advice = _UNKNOWN
+        return [f"Baseline: {', '.join(parts)}{gone}.{advice}"]
 
 
 def beside_baseline(report: Report) -> list[str]:

@@ -261,13 +261,18 @@ def test_the_life_of_a_baseline(tmp_path: Path) -> None:
     assert repository.known() == ["gripper.glb"]
     assert repository.gate().code == 0
 
+    renamed = tmp_path.parent / "other.glb"
+    shutil.copy(SAMPLES / "gripper.glb", renamed)
+    elsewhere = repository.run("batch", str(renamed), "--baseline", "known.json")
+    assert "0 known findings, 1 new. It has none of these pairs: are the paths" in elsewhere.out
+
     shutil.copy(SAMPLES / "rack.3mf", tmp_path)
     failed = repository.gate()
     assert failed.code == 1
     assert "1 known finding, 1 new" in failed.out
     unmeasured = repository.run("batch", ".", "--no-depth", "--baseline", "known.json")
     assert unmeasured.code == 1
-    assert "1 undecided. Undecided findings need figures: add --depth" in unmeasured.out
+    assert "1 undecided. An undecided finding has no figure to compare" in unmeasured.out
     repository.report()
     update = ("baseline", "update", "known.json", "report.json", "--reason", "to be mended")
     assert "2 findings, 1 added, 0 changed, 0 removed" in repository.run(*update).out
