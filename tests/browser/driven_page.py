@@ -366,7 +366,7 @@ def test_a_gap_is_drawn(opened: Opened) -> None:
 def test_a_path_begins_at_the_first_impact(opened: Opened) -> None:
     page = opened(*ON_PATH)
     assert page.locator("#when").inner_text() == "t = 0.491"
-    assert labels(page)["hit"] == "hit at t = 0.491"
+    assert labels(page)["hit"] == "hit at t = 0.491, between poses 1 and 2"
     assert share(page, "red") > 1e-5
     place = "placedAt(picture.rows(finding().b), [0, 0, 0])"
     at_hit = page.evaluate(place)
