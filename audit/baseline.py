@@ -246,8 +246,10 @@ def _with_state(
     if before is None:
         return replace(finding, baseline_state="new")
     state = _compared(before, finding, report)
-    reason = _known(before, finding.relation) if state == "worse" else finding.reason
-    return replace(finding, baseline_state=state, reason=reason)
+    if state == "worse":
+        said = filter(None, [_known(before, finding.relation), finding.reason])
+        finding = replace(finding, reason="; ".join(said))
+    return replace(finding, baseline_state=state)
 
 
 def _known(before: KnownFinding, now: Relation) -> str:

@@ -141,8 +141,7 @@ def _find_overlap(draft: Draft) -> str | None:
     is_open = pair.curved and draft.signed is not None and band.side == "open"
     draft.relation = named(draft.exact, band.side == "within")
     shown = draft.exact_proven
-    ran_out = band.side == "open" and draft.climb is not None and draft.climb.too_few_steps
-    draft.reason = _weakness(draft) or (OPEN_BAND if is_open or ran_out else None)
+    draft.reason = _weakness(draft) or (OPEN_BAND if is_open else None)
     if pair.excuses and draft.relation in OVERLAPS:
         draft.reason = draft.reason or _unexcused(pair, band)
     if pair.closer:
@@ -188,6 +187,7 @@ def _find_gap(draft: Draft) -> None:
         proven, reason = False, _open_gap(pair)
     elif draft.relation == "separated" and gap.within is None:
         reason = reason or (OPEN_GAP if is_unmeasured else OPEN_BAND)
+        proven = proven and not (is_unmeasured and pair.settings.fail_on == "note")
     shown = draft.exact_proven
     if pair.closer and gap.lower == 0:  # the curves may meet
         shown = False

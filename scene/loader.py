@@ -66,7 +66,6 @@ from satcheck.scene.units import (
 
 # The header of a body in TOML, or the first body of a list in JSON.
 _BODY = re.compile(rb'^\s*\[\[\s*bodies\s*\]\]|"bodies"\s*:\s*\[\s*\{', re.MULTILINE)
-_RULES = re.compile(rb'\[\[\s*rules\b|\brules"?\s*[=:]')
 
 if TYPE_CHECKING:
     from satcheck.scene.mesh_files import KnownMeshes
@@ -315,9 +314,10 @@ def has_only_rules(path: str, permitted: Permitted) -> bool:
     if kind_of(path) != "scene":
         return False
     data = read_whole(path, path, permitted.most)
-    return (
-        not _BODY.search(data) and bool(_RULES.search(data)) and not _scene(path, permitted).items
-    )
+    if _BODY.search(data):
+        return False
+    scene = _scene(path, permitted)
+    return not scene.items and bool(scene.rules or scene.body_rules or b"rules" in data)
 
 
 def is_mesh(path: str) -> bool:

@@ -124,14 +124,16 @@ def _band_of_meshes(draft: Draft, climb: core.Climb) -> Band:
         return band
     if band.side != "within":
         band = _searched(draft, climb.least_depth or 0.0) or band
+    if band.side == "open" and climb.too_few_steps:
+        band = Band("hidden", why="looking for a move within the tolerance takes too many steps")
+        draft.add("touch-band", "undecided", f"{_band(pair)}: {band.why}", cost)
+        return band
     if band.move is not None:
         result, detail = "within", f"{math.hypot(*band.move):.3g} frees A"
     elif band.side == "within":
         result, detail = "within", "the hulls of the whole meshes overlap by no more"
     elif band.side == "hidden":
         result, detail = "undecided", "a move as long as it, to rounding, frees A"
-    elif climb.too_few_steps:
-        result, detail = "undecided", "looking for a move within it takes too many steps"
     else:
         result, detail = "not found", "no move within it frees A"
     draft.add("touch-band", result, f"{_band(pair)}: {detail}", cost)

@@ -14,6 +14,8 @@ from satcheck.report.judge import is_within
 # edges with 9 roundings each, as much again for the sum, divided by six. So the error for each
 # triangle is this number of roundoffs of the volume of the box.
 VOLUME_ROUNDOFFS = 18
+# The code of a mesh that manifold3d cannot use.
+REFUSED = "volume-refused"
 
 
 def measure_volume(draft: Draft) -> None:
@@ -52,12 +54,19 @@ def _require_measurable(body: PlacedBody) -> None:
 
 
 def _measured(draft: Draft) -> tuple[float, float]:
-    """Return the volume and its error, in rational numbers if an estimate leaves a limit open."""
-    volume, error = _estimated(draft)
+    """Return the volume and its error, in rational numbers if an estimate leaves a limit open, or
+    if there is none."""
+    try:
+        volume, error = _estimated(draft)
+    except SatcheckError as refused:
+        exact = _exact(draft, "as there is no estimate") if refused.code == REFUSED else None
+        if exact is None:
+            raise
+        return exact
     limit = draft.pair.request.max_volume
     if limit is None or is_within(limit, volume - error, volume + error) is not None:
         return volume, error
-    return _exact(draft) or (volume, error)
+    return _exact(draft, "as the estimate leaves the limit open") or (volume, error)
 
 
 def _estimated(draft: Draft) -> tuple[float, float]:
@@ -74,7 +83,7 @@ def _estimated(draft: Draft) -> tuple[float, float]:
     return max(common.volume, 0.0), common.error
 
 
-def _exact(draft: Draft) -> tuple[float, float] | None:
+def _exact(draft: Draft, why: str) -> tuple[float, float] | None:
     """Return None where that is too much work."""
     from satcheck.core.exact_volume import exact_common_volume
 
@@ -82,7 +91,7 @@ def _exact(draft: Draft) -> tuple[float, float] | None:
     if exact is None:
         draft.record("volume", "no answer", "too many triangles for rational numbers")
         return None
-    draft.record("volume", "exact", "in rational numbers, as the estimate leaves the limit open")
+    draft.record("volume", "exact", f"in rational numbers, {why}")
     volume = float(exact)
     return volume, 0.0 if exact == volume else math.ulp(volume)
 

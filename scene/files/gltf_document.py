@@ -225,6 +225,7 @@ class _Lists(_Object, frozen=True, kw_only=True):
     buffer_views: list[BufferView | None] = []
     buffers: list[Buffer | None] = []
     skins: list[GltfSkin | None] = []
+    materials: list[Any] = []
     animations: list[Any] = []
     extensions_used: tuple[str, ...] = ()
     extensions_required: tuple[str, ...] = ()

@@ -28,7 +28,7 @@ T = TypeVar("T")
 
 MOST = 20  # errors told about one file
 _TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
-_BARE_LENGTH = r"=\s*([\d.]+\s?[a-zµ]+)\b"
+_BARE_LENGTH = r"""^[^"'#]*=[\s\[]*([-+]?[\d._e+-]+\s?[a-zµ]+)\b"""
 _TEXT = r'"[^"\\\n]*+(?:\\.[^"\\\n]*+)*+"'
 _NUMBERS = r"""\[[^][{}"'#]*+\]"""
 # A list of numbers is one token, and so is a matrix.

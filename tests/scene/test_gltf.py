@@ -422,6 +422,15 @@ def test_what_is_there_unpacked_as_well_needs_no_draco(tmp_path):
     assert file.mesh.bounds == ((0, 0, 0), (1, 1, 1))
 
 
+@pytest.mark.parametrize("materials", [5, "steel", {}])
+def test_materials_are_a_list(tmp_path, materials):
+    """A number ended the run, and other files had no answer."""
+    document = packed_with_draco(required=False)
+    document.json["materials"] = materials
+    code, message = refusal(tmp_path, "a.glb", document.glb())
+    assert (code, "materials" in message) == ("bad-record", True)
+
+
 def test_damaged_draco_data_loses_its_mesh(tmp_path):
     document = packed_with_draco()
     view = document.json["bufferViews"][-1]
