@@ -88,6 +88,32 @@ def test_a_gap_beyond_the_budget_leaves_the_pair_separated(
     assert relations[-1] == decided.relation
 
 
+@pytest.mark.parametrize(
+    ("high", "settings", "decided"),
+    [
+        (1.75, Settings(tolerance=0.3, fail_on="note"), "touching"),
+        (2.005, Settings(surface_tolerance=0.02), "touching"),
+        (2.5, Settings(surface_tolerance=0.02), "penetrating"),
+    ],
+)
+def test_no_budget_makes_another_verdict(
+    high: float,
+    settings: Settings,
+    decided: str,
+    in_a_slot: list[Path],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """What the budget leaves open may be a touch that fails, or one that passes."""
+    in_a_slot[1].write_text(box((1.25, 1, 1), (high, 2, 2), 1))
+    assert finding_within(MOST_STEPS, in_a_slot, settings, monkeypatch).relation == decided
+    found = [
+        finding_within(count, in_a_slot, settings, monkeypatch) for count in range(1, 9000, 100)
+    ]
+    assert "relation" in {each.undecided for each in found}
+    for each in found:
+        assert each.undecided == "relation" or each.relation == decided
+
+
 def finding_within(
     steps: int, files: list[Path], settings: Settings, monkeypatch: pytest.MonkeyPatch
 ) -> Finding:
