@@ -45,20 +45,19 @@ def serve(request: bytes) -> bytes:
             return _reply(refused=solid, which=which)
         solids.append(solid)
         areas.append(solid.surface_area())
-    common = solids[0] ^ solids[1]
-    if common.status().name != "NoError":
-        return _reply(refused=common.status().name, which=None)
-    if wanted == "mesh":
-        mesh = common.to_mesh64()
-        points = np.ldexp(np.asarray(mesh.vert_properties[:, :3]), exponent) + centre
-        corners = np.asarray(mesh.tri_verts).astype("<u4")
-        return _reply(mesh=[points.astype("<f8").tobytes(), corners.tobytes()])
     # A fault seldom hits two Booleans alike: then the parts of a solid do not make up the whole.
     for one, other in (solids, solids[::-1]):
-        common, rest = one ^ other, one - other
+        common = one ^ other
+        if common.status().name != "NoError":
+            return _reply(refused=common.status().name, which=None)
+        if wanted == "mesh":
+            mesh = common.to_mesh64()
+            points = np.ldexp(np.asarray(mesh.vert_properties[:, :3]), exponent) + centre
+            corners = np.asarray(mesh.tri_verts).astype("<u4")
+            return _reply(mesh=[points.astype("<f8").tobytes(), corners.tobytes()])
         tolerance = max(common.get_tolerance(), *(solid.get_tolerance() for solid in solids))
         error = tolerance * sum(areas)
-        if abs(common.volume() + rest.volume() - one.volume()) <= _SAME * error:
+        if abs(common.volume() + (one - other).volume() - one.volume()) <= _SAME * error:
             return _reply(volume=common.volume(), error=error, exponent=exponent)
     return _reply(refused="volumes that contradict each other", which=None)
 

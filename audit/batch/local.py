@@ -16,10 +16,9 @@ from satcheck.core.worker_errors import WorkerNotStarted
 # A process takes about this long to start: few worlds are checked before a second one would help.
 # After each such time there are twice as many.
 _SECONDS_BEFORE_MORE = 0.5
-# Work of a slot between two questions to this process: seconds, and worlds at most. Short, so that
-# little is lost with it, and shorter if no file keeps it: what is done before Ctrl-C is then to be
-# in the report.
-_CHUNK, _CHUNK_NOT_KEPT = (0.2, 64), (0.02, 8)
+# Work of a slot between two questions to this process. Short, so that little is lost with it.
+_CHUNK_SECONDS = 0.2
+_LARGEST_CHUNK = 64
 
 
 def check_locally(
@@ -34,10 +33,11 @@ def check_locally(
     waiting = deque(worlds)
     answers: Queue[Answer | BaseException] = Queue(maxsize=1000)
     made = [Slot(options, limits, wanted=wanted) for _ in range(min(slots, len(worlds)))]
-    chunk = _CHUNK if wanted.kept else _CHUNK_NOT_KEPT
+    # What no file keeps is asked for one by one: what is done is then known, whatever comes next.
+    largest = _LARGEST_CHUNK if wanted.kept else 1
     try:
         for number, slot in enumerate(made):
-            _start(_serve, slot, number, chunk, waiting, answers)
+            _start(_serve, slot, number, largest, waiting, answers)
         due = len(worlds)
         while due:
             come = [
@@ -62,20 +62,19 @@ def _start(work: Callable[..., None], *arguments: object) -> None:
 def _serve(
     slot: Slot,
     number: int,
-    largest: tuple[float, int],
+    largest: int,
     waiting: deque[World],
     answers: Queue[Answer | BaseException],
 ) -> None:
-    """number: of the slot, from 0 on. largest: the seconds and worlds of a chunk."""
+    """number: of the slot, from 0 on. largest: worlds of a chunk at most."""
     time.sleep(number.bit_length() * _SECONDS_BEFORE_MORE)
-    seconds, worlds = largest
-    pace = Pace(worlds)
+    pace = Pace(largest)
     try:
         while chunk := _next(waiting, pace.size):
             began = time.monotonic()
             for answer in slot.check(chunk):
                 answers.put(answer)
-            pace.measure(len(chunk), time.monotonic() - began, seconds)
+            pace.measure(len(chunk), time.monotonic() - began, _CHUNK_SECONDS)
     except BaseException as error:  # noqa: BLE001  raised where the answers are awaited
         answers.put(error)
 

@@ -1,6 +1,8 @@
 // Small meshes that several tests need.
 #pragma once
 
+#include <cmath>
+#include <random>
 #include <vector>
 
 #include "base/mesh.hpp"
@@ -23,6 +25,19 @@ inline void append(Mesh& mesh, const Mesh& other) {
   for (const Triangle& t : other.triangles) {
     mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
   }
+}
+
+// A random point of the hull of these points. The third power prefers the neighbourhood of single corners.
+inline Vec3 random_in_hull(std::mt19937& generator, const std::vector<Vec3>& points) {
+  std::exponential_distribution<double> weight;
+  Vec3 p;
+  double sum = 0;
+  for (const Vec3& v : points) {
+    const double w = std::pow(weight(generator), 3);
+    p = p + v * w;
+    sum += w;
+  }
+  return p * (1 / sum);
 }
 
 inline Mesh reversed(Mesh mesh) {

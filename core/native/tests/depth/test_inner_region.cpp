@@ -21,17 +21,8 @@ double volume(const InnerRegion& region) {
 // No random point of the region is outside of the solid.
 bool lies_inside(const InnerRegion& region, const Surface& solid) {
   std::mt19937 random(7);
-  std::exponential_distribution<double> weight;
   for (int sample = 0; sample < 2000; ++sample) {
-    Vec3 p;
-    double sum = 0;
-    for (const Vec3& v : region.vertices) {
-      // The third power prefers the neighbourhood of single corners.
-      const double w = std::pow(weight(random), 3);
-      p = p + v * w;
-      sum += w;
-    }
-    if (winding_number(solid, p * (1 / sum)) == 0) return false;
+    if (winding_number(solid, random_in_hull(random, region.vertices)) == 0) return false;
   }
   return true;
 }

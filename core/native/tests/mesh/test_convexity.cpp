@@ -17,17 +17,9 @@ namespace {
 double sampled_deviation(const Mesh& mesh, std::mt19937& generator, int samples) {
   const Surface solid = make_surface(mesh, true);
   const Polytope hull = convex_hull(mesh.vertices);
-  std::exponential_distribution<double> weight;
   double worst = 0;
   for (int k = 0; k < samples; ++k) {
-    Vec3 p;
-    double sum = 0;
-    for (const Vec3& v : hull.vertices) {
-      const double w = std::pow(weight(generator), 3);
-      p = p + v * w;
-      sum += w;
-    }
-    p = p * (1 / sum);
+    const Vec3 p = random_in_hull(generator, hull.vertices);
     if (winding_number(solid, p).value_or(1) == 0) worst = std::max(worst, nearest_point(solid, p).distance);
   }
   return worst;
@@ -80,8 +72,7 @@ void a_dent() {
   }
 }
 
-// Turning rounds the vertices, so that faces bend: the defect is tiny, and not 0 by luck alone.
-void turned_hulls() {
+void random_hulls() {
   Source source(9);
   for (int round = 0; round < rounds(200); ++round) {
     const Polytope hull = convex_hull(source.sphere_points(30));
@@ -101,6 +92,6 @@ void no_solids() {
 UNIT(convexity) {
   unions_of_boxes();
   a_dent();
-  turned_hulls();
+  random_hulls();
   no_solids();
 }
