@@ -60,10 +60,10 @@ inline constexpr std::uint64_t kNodeWork = 10;
 // Few trees are deeper.
 inline constexpr std::size_t kUsualDepth = 48;
 
-// Calls visit(triangle) -> bool for every triangle whose box meets `query`, until one returns false.
-// Returns whether all were visited.
-template <class Visit>
-bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit, Budget* budget = nullptr) {
+// Calls visit(triangle) -> bool for every triangle whose box `meets`, until one returns false. meets(box) is true for
+// each box that holds such a box. Returns whether all were visited.
+template <class Meets, class Visit>
+bool visit_where(const Bvh& bvh, const Mesh& mesh, Meets meets, Visit visit, Budget* budget = nullptr) {
   if (bvh.nodes.empty()) return true;
   std::vector<std::uint32_t> stack;
   stack.reserve(kUsualDepth);
@@ -72,17 +72,23 @@ bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit,
     const BvhNode& node = bvh.nodes[stack.back()];
     stack.pop_back();
     spend(budget, kNodeWork);
-    if (!meet(node.box, query)) continue;
+    if (!meets(node.box)) continue;
     if (!node.is_leaf()) {
       stack.push_back(node.first + 1);
       stack.push_back(node.first);
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (meet(box_at(bvh, mesh, i), query) && !visit(bvh.order[i])) return false;
+      if (meets(box_at(bvh, mesh, i)) && !visit(bvh.order[i])) return false;
     }
   }
   return true;
+}
+
+// The triangles whose box meets `query`.
+template <class Visit>
+bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit, Budget* budget = nullptr) {
+  return visit_where(bvh, mesh, [&](const Aabb& box) { return meet(box, query); }, visit, budget);
 }
 
 // The same for a tree that has all boxes.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "base/edge_table.hpp"
@@ -16,6 +17,9 @@ namespace {
 // A share of the size of a mesh. Wider cracks are not closed, because such coarse coordinates no longer describe a
 // shape.
 constexpr double kThinBeside = 0x1p-10;
+// Vertices on edges, for each vertex of the boundary. A T-junction of two faces has one; many edges along one line have
+// more, and stay as they are.
+constexpr std::size_t kMostSplits = 16;
 
 std::vector<BoundaryLoop> loops_of(const Mesh& welded) {
   return boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles));
@@ -48,19 +52,77 @@ int widest_axis(const Mesh& mesh, const std::vector<std::uint32_t>& vertices) {
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
+std::vector<std::uint32_t> vertices_of(const std::vector<BoundaryLoop>& loops) {
+  std::vector<std::uint32_t> vertices;
+  for (const BoundaryLoop& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+Bvh tree_of(const Mesh& mesh, const std::vector<std::uint32_t>& vertices) {
+  std::vector<Aabb> points;
+  for (const std::uint32_t v : vertices) points.push_back({mesh.vertices[v], mesh.vertices[v]});
+  return build_bvh_by_form(points);
+}
+
+// Whether the segment may come within `reach` of the box along each axis.
+bool may_pass(Vec3 p, Vec3 q, const Aabb& box, double reach) {
+  double enters = 0, leaves = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double low = box.min[k] - reach - p[k], high = box.max[k] + reach - p[k], along = q[k] - p[k];
+    if (along == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    enters = std::max(enters, std::min(low / along, high / along));
+    leaves = std::min(leaves, std::max(low / along, high / along));
+  }
+  return enters <= leaves;
+}
+
+// Closes T-junctions: each boundary edge that passes within the width of other vertices of the boundary gets triangles
+// that replace it by edges from vertex to vertex. Several T-junctions often lie on one loop, which then bounds no
+// single segment.
+void split_edges(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width) {
+  const std::vector<std::uint32_t> vertices = vertices_of(loops);
+  const Bvh tree = tree_of(welded, vertices);
+  const auto at = [&](std::uint32_t v) { return welded.vertices[v]; };
+  std::vector<Triangle> added;
+  for (const BoundaryLoop& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t u = loop[i], v = loop[(i + 1) % loop.size()];
+      const Vec3 along = at(v) - at(u);
+      std::vector<std::pair<double, std::uint32_t>> between;
+      visit_where(
+          tree, Mesh{}, [&](const Aabb& box) { return may_pass(at(u), at(v), box, 2 * width); },
+          [&](std::uint32_t k) {
+            const std::uint32_t x = vertices[k];
+            const bool at_end = distance(at(x), at(u)) <= width || distance(at(x), at(v)) <= width;
+            if (!at_end && distance_to_segment(at(x), at(u), at(v)) <= width) between.emplace_back(dot(at(x) - at(u), along), x);
+            return true;
+          });
+      std::sort(between.begin(), between.end());
+      std::uint32_t last = u;
+      for (const auto& [share, x] : between) {
+        added.push_back({v, last, x});
+        last = x;
+      }
+      if (added.size() > kMostSplits * vertices.size()) return;
+    }
+  }
+  welded.triangles.insert(welded.triangles.end(), added.begin(), added.end());
+}
+
 // For each vertex of the loops: the first vertex along the widest axis within the width, if not itself within the width
 // of one before; the vertex itself where there is no other.
 std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::vector<BoundaryLoop>& loops, double width) {
-  std::vector<std::uint32_t> vertices;
-  for (const BoundaryLoop& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
+  std::vector<std::uint32_t> vertices = vertices_of(loops);
   const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
   const int axis = widest_axis(mesh, vertices);
   const auto place = [&](std::uint32_t v) { return at(v)[axis]; };
   std::sort(vertices.begin(), vertices.end(), [&](auto u, auto v) { return place(u) != place(v) ? place(u) < place(v) : u < v; });
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  std::vector<Aabb> points;
-  for (const std::uint32_t v : vertices) points.push_back({at(v), at(v)});
-  const Bvh tree = build_bvh_by_form(points);
+  const Bvh tree = tree_of(mesh, vertices);
   const Vec3 reach = Vec3{1, 1, 1} * (2 * width);  // beyond the width by more than all rounding
   std::map<std::uint32_t, std::uint32_t> same;
   for (const std::uint32_t first : vertices) {
@@ -109,7 +171,8 @@ std::size_t seal_cracks(Mesh& welded, double width) {
   const std::vector<BoundaryLoop> loops = loops_of(welded);
   if (loops.empty()) return 0;
   Mesh sealed = welded;
-  close_seams(sealed, loops, width);
+  split_edges(sealed, loops, width);
+  close_seams(sealed, loops_of(sealed), width);
   const std::vector<BoundaryLoop> left = loops_of(sealed);
   close_thin_loops(sealed, left, width);
   const std::size_t open = loops_of(sealed).size();

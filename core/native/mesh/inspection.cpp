@@ -34,21 +34,31 @@ void orient_mesh(Inspection& result, const Poll& poll) {
 
 }  // namespace
 
+// The winding of a mesh with a boundary is judged with its cracks closed, because edges beside a T-junction may have two
+// triangles that belong to different neighbours.
 Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll) {
   Inspection result;
   result.mesh = weld_and_sort(mesh);
   result.topology = result.repaired = measure_sorted(result.mesh);
   if (result.topology.is_plain_solid()) return result;
-  if (orient_it) orient_mesh(result, poll);
+  if (orient_it && result.topology.closed) orient_mesh(result, poll);
   if (has_boundary(result.repaired)) result.holes = holes_but_flat_parts(result.mesh);
   return result;
 }
 
 Inspection with_cracks_closed(Inspection result, bool orient_it, double width, const Poll& poll) {
   if (!has_boundary(result.repaired)) return result;
-  result.cracks = seal_cracks(result.mesh, width);
-  if (result.cracks == 0) return result;
-  result.repaired = measure_topology(result.mesh);
+  const Inspection given = result;
+  const auto seal = [&] {
+    result.cracks = seal_cracks(result.mesh, width);
+    if (result.cracks != 0) result.repaired = measure_topology(result.mesh);
+  };
+  seal();
+  if (orient_it && !result.repaired.oriented) {
+    result = given;
+    orient_mesh(result, poll);
+    seal();
+  }
   if (orient_it) orient_mesh(result, poll);
   result.holes = has_boundary(result.repaired) ? holes_but_flat_parts(result.mesh) : std::vector<Hole>{};
   return result;

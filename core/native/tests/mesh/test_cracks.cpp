@@ -33,6 +33,23 @@ void a_t_junction_is_closed_within_the_width() {
   }
 }
 
+// A face with a T-junction on each side: its own rim is a loop, and so is that of its neighbours.
+void a_face_with_a_t_junction_on_each_side_is_closed() {
+  const Mesh face{{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  for (const double off : {0.0, 1e-7}) {
+    Mesh mesh = face;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      mesh.vertices.push_back((face.vertices[k] + face.vertices[(k + 1) % 4]) * 0.5 + Vec3{0, 0, off});
+    }
+    mesh.vertices.push_back({1, 1, -2});
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      mesh.triangles.insert(mesh.triangles.end(), {{4 + k, k, 8}, {(k + 1) % 4, 4 + k, 8}});
+    }
+    CHECK(seal_cracks(mesh, 2e-7) >= 1);
+    CHECK(is_closed(mesh));
+  }
+}
+
 void what_is_wider_stays() {
   Mesh mesh = with_t_junction(1e-6);
   CHECK(seal_cracks(mesh, 2e-7) == 0);
@@ -75,6 +92,7 @@ void a_seam_is_closed_along_any_axis() {
 UNIT(cracks) {
   a_seam_is_closed_along_any_axis();
   a_t_junction_is_closed_within_the_width();
+  a_face_with_a_t_junction_on_each_side_is_closed();
   what_is_wider_stays();
   a_width_as_large_as_the_mesh_closes_nothing();
 }

@@ -1,11 +1,13 @@
 // inspect() against the steps that it stands for, on boxes that are put together and broken.
 #include "mesh/inspection.hpp"
 
+#include <algorithm>
 #include <random>
 #include <utility>
 
 #include "mesh/orient.hpp"
 #include "mesh/transform.hpp"
+#include "tests/boxes.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
 
@@ -50,6 +52,20 @@ Mesh shuffled_soup(const Mesh& mesh, unsigned seed) {
   return soup;
 }
 
+// Rectangles with T-junctions around caves, and along edges with four sheets, are closed, and none is turned.
+void check_t_junctions(double filled, unsigned seed) {
+  std::mt19937 random(seed);
+  const Cells cells = random_cells(random, 4, filled);
+  const auto volume = static_cast<double>(std::count(cells.filled.begin(), cells.filled.end(), true));
+  if (volume == 0) return;
+  const Mesh mesh = shuffled_soup(rectangles_of(cells, random), seed);
+  for (const bool inside_out : {false, true}) {
+    const Inspection found = with_cracks_closed(inspect(inside_out ? reversed(mesh) : mesh, true), true, 1e-9);
+    CHECK(found.repaired.closed && found.repaired.oriented && found.repaired.volume == volume);
+    CHECK(found.turned == inside_out && found.holes.empty());
+  }
+}
+
 // A few triangles turned, dropped, doubled, corners merged: whatever is measured for less is measured the same.
 void check_damaged(const Mesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
@@ -69,6 +85,7 @@ void check_damaged(const Mesh& mesh, unsigned seed) {
 }  // namespace
 
 UNIT(inspection) {
+  for (unsigned seed = 0; seed < 200; ++seed) check_t_junctions(0.1 + 0.8 * (seed % 9) / 8, seed);
   Mesh touching = uv_sphere(4);  // at a corner
   append(touching, translate(uv_sphere(4), {0, 0, 2}));
   const Mesh pillow{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
