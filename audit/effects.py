@@ -17,7 +17,7 @@ from satcheck.report.report import (
     PairCounts,
     Relation,
 )
-from satcheck.report.request import Request
+from satcheck.report.request import ON_REQUEST, Request
 from satcheck.report.settings import FailOn
 from satcheck.report.verdict import fails
 
@@ -102,13 +102,12 @@ def _kind_of(request: Request, finding: Finding, fail_on: FailOn, time: dict[str
         done.add(effect)
     if finding.depth is not None:  # also if the touch band computed it
         done.add("depth")
-    answers: dict[str, object] = {
-        "thickness": finding.thickness,
-        "volume": finding.volume,
-        "contacts": finding.contacts,
-        "certificate": finding.certificate,
-    }
-    unanswered = frozenset(e for e, answer in answers.items() if e in done and answer is None)
+    answers = {effect: extra.answer for effect, extra in ON_REQUEST.items() if extra.answer}
+    unanswered = frozenset(
+        effect
+        for effect, field in {"thickness": "thickness", **answers}.items()
+        if effect in done and getattr(finding, field) is None
+    )
     exact = finding.exact_relation
     return _Kind(by, called_for, finding.at_rest, exact, frozenset(done), unanswered)
 

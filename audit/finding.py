@@ -45,7 +45,7 @@ OPEN_BAND = "undecided: whether that is within the tolerance"
 OPEN_GAP = "the gap is not known: measuring it takes too many steps"
 # The stages that run on request, in their order, after those that decide the relation. A curved
 # shape has none of those on triangles.
-ON_REQUEST: dict[Effect, Callable[[Draft], None]] = {
+STAGES: dict[Effect, Callable[[Draft], None]] = {
     "thickness": measure_thickness,
     "volume": measure_volume,
     "contacts": find_contacts,
@@ -121,7 +121,7 @@ def _run_on_request(draft: Draft) -> None:
             measure_thickness(draft)
         note_unavailable(draft)
         return
-    for effect, run in ON_REQUEST.items():
+    for effect, run in STAGES.items():
         if draft.pair.request.wants(effect):
             run(draft)
 

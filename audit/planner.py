@@ -1,5 +1,6 @@
 """The planner makes the `Request` of each pair from the flags of a check and the rules of its
-scene. It alone decides which stages run."""
+scene. It alone decides which figures are asked for; a stage may measure another to decide a
+relation."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ from satcheck.audit.settings import Settings
 from satcheck.core.conventions import LARGEST_LENGTH
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import Effect, RuleReport
-from satcheck.report.request import Request, request_of
+from satcheck.report.request import ON_REQUEST, Request, request_of
 from satcheck.report.rule_book import RuleBook, Terms
 from satcheck.report.settings import StatedSettings
 
@@ -127,12 +128,10 @@ def request_for(
         "distance": None
         if request.clearance is None and not settings.distance
         else request.rule("clearance") or ("distance" if settings.distance else "--clearance"),
-        "volume": "--volume" if settings.volume else request.rule("max_volume"),
-        "contacts": "--contacts" if settings.contacts else None,
-        "components": "--components" if settings.components else None,
-        "cross-check": "--cross-check" if settings.cross_check else None,
-        "certificate": "--certificate" if settings.certificate else None,
     }
+    for effect, extra in ON_REQUEST.items():
+        option = f"--{effect}" if getattr(settings, extra.setting) else None
+        by[effect] = option or request.rule(KEY_OF_EFFECT.get(effect, ""))
     # A coarser accuracy is chosen for speed.
     by_failing = composed and settings.depth is None and settings.accuracy == "exact"
     wanted: dict[Effect, bool | None] = {"depth": None, "thickness": settings.thickness}

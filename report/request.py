@@ -17,6 +17,23 @@ LIMITS = ("max_depth", "max_thickness", "max_volume")
 OPTIONS_OF_LIMITS = {"max_depth": "--max-depth", "max_thickness": "--max-thickness"}
 
 
+class OnRequest(Struct, frozen=True):
+    """An effect that no other one needs. setting: requests it, as the option of this name does.
+    answer: the field of a finding that holds its result; None: the trace alone has it."""
+
+    setting: str
+    answer: str | None = None
+
+
+ON_REQUEST: dict[Effect, OnRequest] = {
+    "volume": OnRequest("volume", "volume"),
+    "contacts": OnRequest("contacts", "contacts"),
+    "components": OnRequest("components", "components"),
+    "cross-check": OnRequest("cross_check"),
+    "certificate": OnRequest("certificate", "certificate"),
+}
+
+
 class Request(Struct, frozen=True):
     """Lengths and volumes are in units of the scene.
 

@@ -23,6 +23,7 @@ from satcheck.audit.settings import Settings
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import OVERLAPS, Finding, Report
+from satcheck.report.request import ON_REQUEST
 from satcheck.report.resolution import (
     Left,
     Move,
@@ -41,9 +42,7 @@ LINKS_STAY = "links of a robot stay where its joints put them"
 NO_WAY = "no way out was found"
 ONLY_MOVING = "only while they move, and motions are not resolved"
 # Figures of overlaps are not needed where none is left.
-NO_FIGURES = dict.fromkeys(
-    ("depth", "contacts", "components", "volume", "cross_check", "certificate"), False
-)
+NO_FIGURES = {"depth": False, **{extra.setting: False for extra in ON_REQUEST.values()}}
 _VERDICTS: dict[str, ResolutionVerdict] = {
     "pass": "resolved",
     "fail": "unresolved",

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Literal
 from satcheck import core
 from satcheck.audit.stages.rungs import rungs_of
 from satcheck.report.report import OVERLAPS
+from satcheck.report.request import ON_REQUEST
 from satcheck.scene.inspect import MOST_AROUND
 
 if TYPE_CHECKING:
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from satcheck.audit.pair import Pair
     from satcheck.audit.settings import Accuracy
     from satcheck.core.conventions import Vector
-    from satcheck.report.report import Effect
 
     Question = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, float, float, bool]
     Rung = Literal["aabb", "obb", "hull", "triangles"]
@@ -41,10 +41,6 @@ LAST: dict[Accuracy, Rung] = {
 }
 TOO_MANY_STEPS = "deciding takes more steps than a pair may"
 NO_STEPS_LEFT = "deciding takes more steps than the scene leaves for it: check the two alone"
-# Effects that are computed after the ladder for every verdict.
-_EXTRAS: frozenset[Effect] = frozenset(
-    ("volume", "contacts", "components", "cross-check", "certificate", "sweep")
-)
 
 
 def settle(draft: Draft, climb: core.Climb | None = None) -> None:
@@ -150,7 +146,7 @@ def leaves_work(pair: Pair, climb: core.Climb | None) -> bool:
         return True
     if climb.band in ("open", "hidden") or climb.thick is False:
         return True
-    if not _EXTRAS.isdisjoint(pair.request.by):
+    if not ON_REQUEST.keys().isdisjoint(pair.request.by):
         return True
     return "depth" in pair.request.by and climb.relation in OVERLAPS
 
