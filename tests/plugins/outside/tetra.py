@@ -28,12 +28,14 @@ def read(file: File) -> Document:
     """Return the tetrahedron of a file: a line for each corner, three numbers each."""
     try:
         scale = file.options[SCALE.name]
-        corners = [scale * float(word) for word in bytes(file.data).split()]
+        words = bytes(file.data).split()
+        corners = [scale * float(word) for word in words]
         points = struct.pack("<12d", *corners)
     except (ValueError, struct.error) as error:
         raise Refused("bad-record", f"not four corners: {error}") from error
     triangles = struct.pack("<12I", *_FACES)
-    return alone(RawMesh(points, triangles, "written-digits", units="mm"))
+    decimals = max(len(word.partition(b".")[2]) for word in words)
+    return alone(RawMesh(points, triangles, "written-digits", units="mm", decimals=decimals))
 
 
 def render(reports: Reports) -> Iterable[str]:
