@@ -420,7 +420,7 @@ def test_a_baseline_of_an_interrupted_batch_says_so(tmp_path: Path) -> None:
     satcheck("batch", "table.toml", "-o", "report.json", cwd=tmp_path)
     path = tmp_path / "report.json"
     told = "interrupted: 1 of 2 assets was not checked"
-    issue = {"code": "interrupted", "severity": "warning", "message": told}
+    issue: dict[str, str | None] = {"code": "interrupted", "severity": "warning", "message": told}
     issue |= {"body": None, "file": None}
     path.write_text(json.dumps(json.loads(path.read_text()) | {"issues": [issue]}))
     for way in ("write", "update", "prune"):
