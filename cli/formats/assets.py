@@ -151,18 +151,17 @@ def _counts(seen: Overview, *, names: bool) -> str:
 
 
 def next_step(seen: Overview) -> list[str]:
-    failing = seen.named.get("fail", [])[:1]
-    unsure = [] if failing else seen.named.get("incomplete", [])[:1]
-    failing, unsure = (
-        [file for file in files if not (is_folder(file) or is_url(file))]  # which no check reads
-        for files in (failing, unsure)
-    )
     ctx = click.get_current_context(silent=True)
-    if ctx is None or ctx.info_name != "view":
-        steps = [f"Next: {_check_of(file)} lists its pairs." for file in failing]
-        return steps + [f"Next: {_check_of(file)} says what is open." for file in unsure]
-    is_written = bool(ctx.params.get("outputs"))
-    return ["Next: -o worst.html shows the worst pairs."] if failing and not is_written else []
+    verdict: AssetVerdict = "fail" if seen.named.get("fail") else "incomplete"
+    files = (f for f in seen.named.get(verdict, []) if not (is_folder(f) or is_url(f)))
+    file = next(files, None)  # a check reads neither folders nor URLs
+    if file is None:
+        return []
+    if ctx is not None and ctx.info_name == "view":
+        is_written = bool(ctx.params.get("outputs")) or verdict != "fail"
+        return [] if is_written else ["Next: -o worst.html shows the worst pairs."]
+    says = "lists its pairs" if verdict == "fail" else "says what is open"
+    return [f"Next: {_check_of(file)} {says}."]
 
 
 def _steps_of_folders(seen: Overview) -> list[str]:
@@ -185,8 +184,7 @@ def _steps_of_folders(seen: Overview) -> list[str]:
 
 def _check_of(file: str) -> str:
     """With the options of this call, if a command renders."""
-    ctx = click.get_current_context(silent=True)
-    if ctx is None or ctx.info_name != "batch":
+    if click.get_current_context(silent=True) is None:
         return f"satcheck {shlex.quote(file)}"
     from satcheck.cli.click_classes import DEFAULT_COMMAND
     from satcheck.cli.slips import call_of
