@@ -79,7 +79,7 @@ def command(
     inputs = Inputs.taken_from(options)
     named = form_of(form, output, FORMATS)
     form = named if named in FORMATS else "toml"
-    refuse_early(inputs, output)
+    refuse_early(inputs, [output])
     document = Document()
     told: set[str] = set()
     of_folders = any(map(is_folder, inputs.paths))
