@@ -12,7 +12,6 @@ from satcheck.cli import exit_codes
 from satcheck.cli.commands import all_commands, command_named, is_command
 from satcheck.cli.output import Document
 from satcheck.scene.files.readers import add_others
-from satcheck.scene.words import meant
 
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 
@@ -76,15 +75,6 @@ class Group(click.Group):
     """The same of a group of commands, and of those in it."""
 
     command_class = Command
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        if args[0].startswith("-") or self.get_command(ctx, args[0]) is not None:
-            return super().resolve_command(ctx, args)
-        names = self.list_commands(ctx)
-        known = meant(args[0], names) or f": it has {', '.join(names)}"
-        raise click.UsageError(f"{ctx.command_path} has no command {args[0]}{known}", ctx)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         return _written(super().get_help_option(ctx))
