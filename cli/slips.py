@@ -19,9 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from satcheck.cli.click_classes import DEFAULT_COMMAND
-from satcheck.cli.commands import COMMANDS, command_named, is_command
-from satcheck.cli.commands.check import command as check
+from satcheck.cli.commands import COMMANDS, DEFAULT_COMMAND, command_named, is_command
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.files.readers import mesh_reader, options
@@ -125,14 +123,13 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
 def _of_others(option: str, words: Sequence[str]) -> Advice | None:
     """Return the commands that have this option, and the call of the first if it is one of a few.
     words: of this call."""
-    commands = {name: command_named(name) for name in COMMANDS}
+    commands = {name: command_named(name) for name in (DEFAULT_COMMAND, *COMMANDS)}
     owners = [name for name, command in commands.items() if command and option in _names(command)]
-    is_of_check = option in _names(check)
-    named = ["satcheck A B"] * is_of_check + [f"satcheck {name}" for name in owners]
-    if not named:
+    if not owners:
         return None
+    named = ("satcheck A B" if name == DEFAULT_COMMAND else f"satcheck {name}" for name in owners)
     said = f"{option} is an option of {', '.join(named)}"
-    if is_of_check or len(owners) > MOST_OWNERS:
+    if DEFAULT_COMMAND in owners or len(owners) > MOST_OWNERS:
         return Advice(said)
     rest = words[1:] if is_command(words[0]) else words
     return Advice(said, _line([owners[0], *rest]))
@@ -232,7 +229,8 @@ def call_of(name: str, paths: Sequence[str], more: Sequence[str] = ()) -> str:
     """Return a call of another command on these paths, with the options of this call that it has
     and that change the answer. more: words at the end."""
     ctx = click.get_current_context()
-    command = check if name == DEFAULT_COMMAND else command_named(name) or check
+    command = command_named(name)
+    assert command is not None
     known = {option.name for option in command.params} - _DELIVERY
     values, _, order = ctx.command.make_parser(ctx).parse_args(sys.argv[1:])
     kept: list[str] = []

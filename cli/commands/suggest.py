@@ -19,7 +19,8 @@ from satcheck.audit.batch.slot_server import Wanted
 from satcheck.audit.settings import Settings
 from satcheck.audit.suggest import LOOSER, MEASURED, Suggestions, suggest, suggestions_of
 from satcheck.cli import exit_codes, option, scene_option
-from satcheck.cli.click_classes import DEFAULT_COMMAND, HELP_NAMES, Command
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.commands import DEFAULT_COMMAND
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import Format
 from satcheck.cli.formats.suggest import remark, srdf, toml

@@ -186,7 +186,7 @@ def _check_of(file: str) -> str:
     """With the options of this call, if a command renders."""
     if click.get_current_context(silent=True) is None:
         return f"satcheck {shlex.quote(file)}"
-    from satcheck.cli.click_classes import DEFAULT_COMMAND
+    from satcheck.cli.commands import DEFAULT_COMMAND
     from satcheck.cli.slips import call_of
 
     return call_of(DEFAULT_COMMAND, [file])
