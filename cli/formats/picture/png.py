@@ -184,8 +184,8 @@ def _captioned(
 
 
 def _label(image: Pixels, shown: Shown, view: View) -> None:
-    """Each label beside its point, and below those that are in its way, or above them where the
-    image ends. Letters are so small that the longest label has room."""
+    """Each label beside its point, or in the nearest free row below or above it. Letters are so
+    small that the longest label has room."""
     height, width = image.shape[:2]
     longest = max((width_of(label.text, 1.0) + 1.6 for label in shown.labels), default=1.0)
     letter = min(0.85 * _letter((width, height)), width / longest)
@@ -199,12 +199,11 @@ def _label(image: Pixels, shown: Shown, view: View) -> None:
         wide = width_of(text, letter) + 1.6 * letter
         left = min(max(x + letter, 0.0), width - wide)
         first = min(max(y - 1.5 * high, 0.0), height - high)
-        tops = sorted(row for low, end, row in taken if left < end and low < left + wide)
-        rows = [first, *(row + 1.05 * high for row in tops)]
-        rows += [row - 1.05 * high for row in reversed(tops)]
+        tops = [row for low, end, row in taken if left < end and low < left + wide]
+        rows = [first, *(row + step for step in (1.05 * high, -1.05 * high) for row in tops)]
         free = (
             row
-            for row in rows
+            for row in sorted(rows, key=lambda row: abs(row - first))
             if 0.0 <= row <= height - high and all(abs(row - other) >= high for other in tops)
         )
         top = next(free, first)
