@@ -45,6 +45,9 @@ def check_meshes(
     - depth and depth_bounds of bodies that overlap; mtv: the translation that frees a, verified.
     - quality: "exact", "bounded" (depth lies within depth_bounds) or "estimate" (not proven).
 
+    The bodies of every finding are called a and b, so all findings have one id. With names, also
+    for two meshes: `check(scene_of_meshes({"box": a, "lid": b}))`.
+
     Raises SatcheckError: `bad-argument` for arrays and poses of another form, for indices out of
     range, for coordinates that are not finite and for poses that are not rigid; the code of a mesh
     file for a mesh that cannot be used, such as `only-degenerate`; `bad-setting` for certificates,

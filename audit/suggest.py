@@ -16,10 +16,8 @@ from satcheck.audit.bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.summary import tool
 from satcheck.core.conventions import LARGEST_LENGTH
-from satcheck.core.errors import SatcheckError
 from satcheck.report.report import OVERLAPS, Finding, Issue, Report
 from satcheck.report.suggestions import Names, Suggestion, SuggestionsReport, Unchecked, Why
-from satcheck.scene.bodies import UNITS_UNKNOWN
 from satcheck.scene.units import MICROMETRES, ratio, unit_of
 
 if TYPE_CHECKING:
@@ -41,13 +39,15 @@ NO_FIGURE = "they overlap, and neither their thickness nor their depth has a pro
 class Suggestions(Struct, frozen=True):
     """A report, and what its other forms say beside it. ids: of the bodies, by asset. undecided:
     undecided pairs, with the first reason. may_meet: pairs of links with bodies that met in a pose,
-    or may have met."""
+    or may have met. without_unit: assets with overlaps that state no unit, where others do: their
+    lengths count in the unit of the rules, as in a check with these rules."""
 
     report: SuggestionsReport
     ids: Mapping[str | None, Sequence[str]]
     undecided: Mapping[str, str]
     may_meet: frozenset[frozenset[str]]
     issues: tuple[Issue, ...]
+    without_unit: tuple[str, ...] = ()
 
 
 class Robots(Struct, frozen=True):
@@ -115,8 +115,7 @@ def suggestions_of(
     samples: SamplesReport | None = None,
 ) -> Suggestions:
     """reports: of checks with MEASURED, by asset; None: of the only scene, with these robots, in
-    these samples. At least one. Raises SatcheckError (`units-unknown`) where some assets with
-    overlaps state a unit of length, and others do not."""
+    these samples. At least one."""
     suggested: list[Suggestion] = []
     unchecked: list[Unchecked] = []
     undecided: dict[str, str] = {}
@@ -149,7 +148,7 @@ def suggestions_of(
     looser = _looser(suggested, reports)
     for each in suggested:
         if other := looser.get(frozenset((each.a, each.b))):
-            reason = f"{LOOSER} in {other}; satcheck baseline keeps the figures of each asset"
+            reason = f"{LOOSER} in {other}"
             unchecked.append(Unchecked(each.a, each.b, False, None, reason, each.asset))
             undecided[f"{each.asset}: {each.a} and {each.b}"] = reason
     suggested = [each for each in suggested if frozenset((each.a, each.b)) not in looser]
@@ -162,7 +161,12 @@ def suggestions_of(
         unchecked=tuple(unchecked),
     )
     ids = {asset: [body.id for body in report.bodies] for asset, report in reports.items()}
-    return Suggestions(document, ids, undecided, frozenset(may_meet), tuple(issues))
+    without_unit = tuple(
+        str(asset)
+        for asset, report in reports.items()
+        if units and not unit_of(report.units) and any(map(_fails, report.findings))
+    )
+    return Suggestions(document, ids, undecided, frozenset(may_meet), tuple(issues), without_unit)
 
 
 def _looser(
@@ -196,20 +200,13 @@ def _fails(finding: Finding) -> bool:
 
 
 def _common_units(reports: Mapping[str | None, Report]) -> str | None:
-    """Return the unit of all assets, or the smallest one of those with overlaps. Raises
-    SatcheckError if one of these states a unit, and another one does not."""
+    """Return the unit of all assets, or the smallest one that those with overlaps state."""
     stated = {report.units for report in reports.values() if report.bodies}
     if len(stated) == 1:
         return stated.pop()
-    failing = [asset for asset, report in reports.items() if any(map(_fails, report.findings))]
-    known = {asset: unit for asset in failing if (unit := unit_of(reports[asset].units))}
-    for asset in failing:
-        if known and asset not in known:
-            other, unit = next(iter(known.items()))
-            message = f"{asset} states no unit of length, and {other} is in {unit}: add --units"
-            message += f" with the unit of {asset}"
-            raise SatcheckError(UNITS_UNKNOWN, message)
-    return min(known.values(), key=MICROMETRES.__getitem__, default=None)
+    failing = (report for report in reports.values() if any(map(_fails, report.findings)))
+    known = filter(None, (unit_of(report.units) for report in failing))
+    return min(known, key=MICROMETRES.__getitem__, default=None)
 
 
 def _suggestion(

@@ -17,7 +17,7 @@ from satcheck.report.baseline import HELD
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES
 from satcheck.report.request import OPTIONS_OF_LIMITS
-from satcheck.scene.units import unit_of
+from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
     from satcheck.report.report import BodyReport, Finding, Relation, Report, RuleReport, Severity
@@ -301,9 +301,12 @@ def worst_first(findings: Iterable[Finding]) -> list[Finding]:
     return sorted(findings, key=rank)
 
 
-def rank(finding: Finding) -> tuple[float, ...]:
-    """The lower the worse."""
-    return (SEVERITIES.index(severity(finding)), *_size(finding))
+def rank(finding: Finding, units: str | None = None) -> tuple[float, ...]:
+    """The lower the worse. units: of its lengths; unknown ones count as millimetres beside those of
+    another report."""
+    kind, first, second = _size(finding)
+    scale = 1.0 if is_hit(finding) else MICROMETRES[unit_of(units) or "mm"]
+    return (SEVERITIES.index(severity(finding)), kind, scale * first, scale * second)
 
 
 def _size(finding: Finding) -> tuple[int, float, float]:

@@ -9,10 +9,9 @@ from typing import Any
 import click
 
 from satcheck.cli import exit_codes
-from satcheck.cli.commands import all_commands, command_named, is_command
+from satcheck.cli.commands import DEFAULT_COMMAND, all_commands, command_named, is_command
 from satcheck.cli.output import Document
 from satcheck.scene.files.readers import add_others
-from satcheck.scene.words import meant
 
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 
@@ -33,7 +32,6 @@ SECTIONS = {
     "Accuracy and limits": "accuracy method threshold width budget max_motion iterations limit "
     "engine scheduler jobs",
 }
-DEFAULT_COMMAND = "check"
 
 
 class Command(click.Command):
@@ -76,15 +74,6 @@ class Group(click.Group):
     """The same of a group of commands, and of those in it."""
 
     command_class = Command
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        if args[0].startswith("-") or self.get_command(ctx, args[0]) is not None:
-            return super().resolve_command(ctx, args)
-        names = self.list_commands(ctx)
-        known = meant(args[0], names) or f": it has {', '.join(names)}"
-        raise click.UsageError(f"{ctx.command_path} has no command {args[0]}{known}", ctx)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         return _written(super().get_help_option(ctx))
@@ -134,7 +123,7 @@ def _values_after(word: str) -> int:
     if word in HELP_NAMES["help_option_names"]:
         return 0
     for name in (DEFAULT_COMMAND, *all_commands()):
-        command = satcheck.get_command(click.Context(satcheck), name)
+        command = command_named(name)
         for option in command.params if command else ():
             if isinstance(option, click.Option) and word in (*option.opts, *option.secondary_opts):
                 return 0 if option.is_flag else option.nargs
@@ -154,10 +143,6 @@ class _Satcheck(Group):
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         del ctx
-        if cmd_name == DEFAULT_COMMAND:
-            from satcheck.cli.commands.check import command
-
-            return command
         return command_named(cmd_name)
 
 

@@ -12,7 +12,7 @@ import click
 from click.core import ParameterSource
 from msgspec import Struct
 
-from satcheck.cli.option import LIMITS
+from satcheck.cli.option import LIMITS, default_limits
 from satcheck.cli.output import talk
 from satcheck.core.errors import SatcheckError
 
@@ -117,7 +117,7 @@ def _refuse_found(file: ConfigFile, key: str, option: click.Option, value: Any) 
     """Raise `bad-config` for what a file has to be named for."""
     if key in _BY_HAND and value:
         raise file.refused(key, f"give --{key} yourself, or name the file: --config {file.path}")
-    limits = {name: LIMITS[name].default for name in value} if key == "limit" else {}
+    limits = default_limits(*value) if key == "limit" else {}
     above = [name for name, most in limits.items() if value[name] > most]
     if above or (key == "budget" and value > option.default):
         raise file.refused(key, f"above the default: name the file, --config {file.path}")

@@ -19,13 +19,12 @@ from satcheck.cli.formats.registry import (
     formats,
 )
 from satcheck.cli.inputs import Inputs, refuse_early
+from satcheck.cli.option import STANDARD_OUTPUT
 from satcheck.cli.output import Document, Page
 from satcheck.core.plugins import failures
 from satcheck.report.json import document as json_document
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-
-STANDARD_OUTPUT = Path("-")
 
 
 class Target(Struct, frozen=True):
@@ -145,13 +144,13 @@ def product_and_report(
 
 
 def plain_call(
-    options: dict[str, Any], form: str | None, output: Path | None
+    options: dict[str, Any], form: str | None, output: Path | None, other: Path | None = None
 ) -> tuple[Inputs, str, Document]:
     """Return what a command begins with that writes JSON and a table: its inputs, which it takes
-    from the options, the format, and standard output. Raises click.UsageError for what can be seen
-    to fail."""
+    from the options, the format, and standard output. other: a file that it writes beside the
+    report. Raises click.UsageError for what can be seen to fail."""
     inputs, form = Inputs.taken_from(options), form_of(form, output, formats(PLAIN))
-    refuse_early(inputs, output)
+    refuse_early(inputs, (output, other))
     return inputs, form, Document()
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any, Self
@@ -12,7 +12,7 @@ import click
 from click.core import ParameterSource
 
 from satcheck.audit.words import counted
-from satcheck.cli.option import origin_of
+from satcheck.cli.option import STANDARD_OUTPUT, origin_of
 from satcheck.cli.output import cannot_write, issue_line, talk
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
@@ -80,21 +80,25 @@ class Inputs(LoadOptions, frozen=True, kw_only=True):
 
 
 def refuse_early(
-    inputs: Inputs, output: Path | None, baseline: Path | None = None, option: str = "-o"
+    inputs: Inputs, outputs: Iterable[Path | None] = (), baseline: Path | None = None
 ) -> None:
-    """Refuse what can be seen to fail before any work is done. option: that names the output."""
+    """Refuse what can be seen to fail before any work is done: no file may overwrite an input or
+    another output. outputs: None, like -, is standard output."""
     if not inputs.paths:
         raise click.UsageError("give two or more mesh files, or a scene file")
     _refuse_first_word(inputs.paths[0])
-    if output is None:
-        return
-    if not is_folder(output.absolute().parent):
-        raise cannot_write(str(output), "its folder does not exist")
     known = () if baseline is None else (str(baseline),)
     swept = () if inputs.joint_path is None else (inputs.joint_path,)
     read = (*inputs.paths, *inputs.pose, *swept, *inputs.rules, *known)
-    if any(is_same_file(output, path) for path in read):
-        raise click.UsageError(f"{option} {output} would overwrite an input")
+    files: list[Path] = []
+    for output in (each for each in outputs if each is not None and each != STANDARD_OUTPUT):
+        if not is_folder(output.absolute().parent):
+            raise cannot_write(str(output), "its folder does not exist")
+        if any(is_same_file(output, path) for path in read):
+            raise click.UsageError(f"{output} would overwrite an input")
+        if any(is_same_file(output, other) for other in files):
+            raise click.UsageError(f"{output} is given twice")
+        files.append(output)
 
 
 def is_same_file(output: Path, path: str | Path) -> bool:

@@ -20,7 +20,7 @@ from satcheck.scene import Scene
 from satcheck.scene.units import Length, parse_length
 
 DEFAULTS = Settings()
-_STANDARD_OUTPUT = Path("-")
+STANDARD_OUTPUT = Path("-")
 _NO_CONFIG = "satcheck.no-config"
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -216,7 +216,7 @@ output = click.option(
     "--output",
     type=_FILE,
     metavar="FILE",
-    callback=lambda _, __, path: None if path == _STANDARD_OUTPUT else path,
+    callback=lambda _, __, path: None if path == STANDARD_OUTPUT else path,
     help="Write the report to FILE; - is standard output.",
 )
 

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
-from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.output import harmless, write_file
 
 if TYPE_CHECKING:
@@ -58,7 +57,7 @@ def plot_option(what: str) -> Callable[[_Command], _Command]:
     )
 
 
-def refuse_plot(inputs: Inputs, plot: Path | None, output: Path | None) -> None:
+def refuse_plot(plot: Path | None) -> None:
     """Refuse what cannot be drawn, before any work is done."""
     if plot is None:
         return
@@ -66,9 +65,6 @@ def refuse_plot(inputs: Inputs, plot: Path | None, output: Path | None) -> None:
         raise click.UsageError(f"--plot {plot}: drawn as {', '.join(FORMS[:-1])} or {FORMS[-1]}")
     if find_spec("matplotlib") is None:
         raise click.UsageError("--plot needs matplotlib: pip install matplotlib")
-    refuse_early(inputs, plot, option="--plot")
-    if output is not None and plot.absolute() == output.absolute():
-        raise click.UsageError("--plot and -o name the same file")
 
 
 def write_plot(figure: Figure, path: Path) -> None:

@@ -3,9 +3,8 @@ that contradict each other."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import click
@@ -14,10 +13,10 @@ from msgspec import Struct
 from satcheck.audit import Report
 from satcheck.audit.messages import of_command
 from satcheck.audit.words import counted, with_titles
-from satcheck.cli.format_option import STANDARD_OUTPUT, Target
+from satcheck.cli.format_option import Target
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import MESHES, counts_line, next_step
-from satcheck.cli.inputs import Inputs, is_same_file, refuse_early
+from satcheck.cli.inputs import Inputs
 from satcheck.cli.output import Document, Page, harmless, issue_line, talk
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
@@ -129,18 +128,6 @@ def _shown(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _shown(member) for key, member in value.items()}
     return [_shown(member) for member in value] if isinstance(value, list | tuple) else value
-
-
-def refuse_outputs(outputs: Sequence[Path], inputs: Inputs, baseline: Path | None = None) -> None:
-    """Refuse what can be seen to fail before any work is done: no file may overwrite an input or
-    another document."""
-    refuse_early(inputs, None, baseline)
-    files: list[Path] = []
-    for output in (path for path in outputs if path != STANDARD_OUTPUT):
-        refuse_early(inputs, output, baseline)
-        if any(is_same_file(output, other) for other in files):
-            raise click.UsageError(f"-o {output} is given twice")
-        files.append(output)
 
 
 def files_line(report: Report | SamplesReport, scene: Scene, to: Delivery) -> str:

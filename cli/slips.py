@@ -19,9 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from satcheck.cli.click_classes import DEFAULT_COMMAND
-from satcheck.cli.commands import COMMANDS, command_named, is_command
-from satcheck.cli.commands.check import command as check
+from satcheck.cli.commands import COMMANDS, DEFAULT_COMMAND, command_named, is_command
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.files.readers import mesh_reader, options
@@ -37,7 +35,7 @@ if TYPE_CHECKING:
 FEWEST_ASSETS = 4
 # More files than this make no line that anybody copies.
 MOST_FILES = 8
-# An option of more commands is none by which a command is meant.
+# An option of more commands says not which of them is meant.
 MOST_OWNERS = 2
 _PATTERN = frozenset("*?[")
 _STORED = re.compile(rb'\s*{\s*"schema": ?"satcheck\.(report|assets|samples|result)/')
@@ -66,13 +64,14 @@ _WORDS = {"check": "", "help": "--help", "each": "batch", "report": "view"}
 
 
 class Advice(NamedTuple):
-    """What a command is for, and the command."""
+    """What a command is for, and the command, if there is one to type."""
 
     purpose: str
-    command: str
+    command: str = ""
 
     def __str__(self) -> str:
-        return f"satcheck: {self.purpose}:\n  {self.command}"
+        said = f"satcheck: {self.purpose}"
+        return f"{said}:\n  {self.command}" if self.command else said
 
 
 class _Pattern(str):
@@ -122,14 +121,18 @@ def about_option(error: click.NoSuchOption) -> Advice | None:
 
 
 def _of_others(option: str, words: Sequence[str]) -> Advice | None:
-    """Return the command whose option this is, if it is one of a few. words: of this call."""
-    commands = {name: command_named(name) for name in COMMANDS}
+    """Return the commands that have this option, and the call of the first if it is one of a few.
+    words: of this call."""
+    commands = {name: command_named(name) for name in (DEFAULT_COMMAND, *COMMANDS)}
     owners = [name for name, command in commands.items() if command and option in _names(command)]
-    if not 1 <= len(owners) <= MOST_OWNERS or option in _names(check):
+    if not owners:
         return None
-    named = " and ".join(f"satcheck {name}" for name in owners)
+    named = ("satcheck A B" if name == DEFAULT_COMMAND else f"satcheck {name}" for name in owners)
+    said = f"{option} is an option of {', '.join(named)}"
+    if DEFAULT_COMMAND in owners or len(owners) > MOST_OWNERS:
+        return Advice(said)
     rest = words[1:] if is_command(words[0]) else words
-    return Advice(f"{option} is an option of {named}", _line([owners[0], *rest]))
+    return Advice(said, _line([owners[0], *rest]))
 
 
 def _names(command: click.Command) -> list[str]:
@@ -164,7 +167,7 @@ def about_paths(paths: Sequence[str]) -> Iterator[Advice]:
             yield Advice("a length has no space", line)
             return
     if near := {path: [other] for path in bad if (other := _nearest(path)) is not None}:
-        yield Advice("did you mean", _replacing(near))
+        yield Advice("did you mean", _line(_replaced(near)))
     yield from _about_folders([path for path in bad if is_folder(path)], paths)
     patterns = (path for path in bad if not is_folder(path) and _PATTERN.intersection(path))
     for path in patterns:
@@ -226,7 +229,8 @@ def call_of(name: str, paths: Sequence[str], more: Sequence[str] = ()) -> str:
     """Return a call of another command on these paths, with the options of this call that it has
     and that change the answer. more: words at the end."""
     ctx = click.get_current_context()
-    command = check if name == DEFAULT_COMMAND else command_named(name) or check
+    command = command_named(name)
+    assert command is not None
     known = {option.name for option in command.params} - _DELIVERY
     values, _, order = ctx.command.make_parser(ctx).parse_args(sys.argv[1:])
     kept: list[str] = []
@@ -258,14 +262,17 @@ def _as_given(option: click.Parameter, value: Any) -> list[str]:
 
 def _about_folders(folders: Sequence[str], given: Sequence[str]) -> Iterator[Advice]:
     """Yield a line for all of them, as a line for one of several would fail at the next."""
+    files = {folder: _all(Path(folder)) for folder in folders if _meshes(Path(folder))}
+    own = {each: () for each in given if is_file(each) and Path(each).parent in map(Path, folders)}
     if folders and _is_check():
         is_expanded = len(folders) > 1 and len(given) > MOST_FILES  # a shell did so with `props/*`
-        words = (_one_folder(given) if is_expanded else []) or sys.argv[1:]
+        words = (_one_folder(given) if is_expanded else []) or _replaced(own)
         where = folders[0] if len(folders) == 1 else "the folders"
         yield Advice(f"to check each file in {where} by itself", _line(["batch", *words]))
-    files = {folder: _all(Path(folder)) for folder in folders if _meshes(Path(folder))}
     if folders and len(files) == len(folders) and (len(files) == 1 or not _is_check()):
-        yield Advice("to check the files in it against each other", _replacing(files))
+        yield Advice(
+            "to check the files in it against each other", _line(_replaced({**own, **files}))
+        )
 
 
 def _about_pattern(path: str) -> Iterator[Advice]:
@@ -274,12 +281,12 @@ def _about_pattern(path: str) -> Iterator[Advice]:
     matches = _matches(path)
     if 0 < len(matches) <= MOST_FILES:
         purpose = f"to check the files of {path} against each other"
-        yield Advice(purpose, _replacing({path: matches}))
+        yield Advice(purpose, _line(_replaced({path: matches})))
     if matches and _is_check():
         yield Advice("to check each of them by itself", _line(["batch", *sys.argv[1:]]))
     if not matches and _meshes(Path(path).parent):
         purpose = f"no file matches {path}. To check the files there"
-        yield Advice(purpose, _replacing({path: _all(Path(path).parent)}))
+        yield Advice(purpose, _line(_replaced({path: _all(Path(path).parent)})))
 
 
 def _matches(pattern: str) -> list[str]:
@@ -332,9 +339,9 @@ def _is_check() -> bool:
     return sys.argv[1:2] != [] and not is_command(sys.argv[1])
 
 
-def _replacing(others: Mapping[str, Sequence[str]]) -> str:
-    """Return this call with other words in the place of some."""
-    return _line([new for word in sys.argv[1:] for new in others.get(word, [word])])
+def _replaced(others: Mapping[str, Sequence[str]]) -> list[str]:
+    """Return the words of this call with others in the place of some."""
+    return [new for word in sys.argv[1:] for new in others.get(word, [word])]
 
 
 def _line(words: Sequence[str]) -> str:

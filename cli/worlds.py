@@ -84,19 +84,19 @@ def check_worlds(
     check = partial(engine, options=terms, limits=limits, **how)
     with _temporary_folder() as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
-        stays, forgives = results is not None, to.exit_zero and not to.targets
+        stays, is_alone = results is not None, not to.targets
         try:
-            tally, code = _run(
-                worlds, terms, limits, check, path, resume=resume, stays=stays, forgives=forgives
+            tally, seen = _run(
+                worlds, terms, limits, check, path, resume=resume, stays=stays, is_alone=is_alone
             )
         except SatcheckError as error:
             if stays or error.code != "cannot-write":
                 raise
             raise click.ClickException(f"{error}: {_ELSEWHERE} [{error.code}]") from None
         if results is not None and not to.quiet:
-            talk(_summary(tally, results, is_alone=not to.targets))
-        if results is not None and not to.targets:
-            return code
+            talk(_summary(tally, seen, results))
+        if seen is not None:
+            return seen.exit_code(exit_zero=to.exit_zero)
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
         deliver = partial(_deliver, document, Path(path), issues, to, terms.allow_outside)
@@ -160,11 +160,11 @@ def _run(
     *,
     resume: bool,
     stays: bool,
-    forgives: bool,
-) -> tuple[Tally, int]:
-    """Check the worlds into the file of results. Return how many have which verdict, and the exit
-    code. stays: after this call. Of a file that does not, Ctrl-C keeps what is done. forgives: the
-    exit code is as if nothing failed."""
+    is_alone: bool,
+) -> tuple[Tally, Overview | None]:
+    """Check the worlds into the file of results. Return how many have which verdict, and what is
+    known of them where no other document shows it. stays: after this call. Of a file that does not,
+    Ctrl-C keeps what is done. is_alone: no other document is made of it."""
     local = local_results(output, PART) if is_url(output) else nullcontext(Path(output))
     with local as path, ResultsFile(path) as results, Bar("assets") as bar:
         if not resume and (existing := results.existing()) is not None:
@@ -177,7 +177,7 @@ def _run(
             nonlocal tally
             tally = reached
             if bar is not None:
-                bar(tally.done, tally.total, _verdicts(tally, but="pass"))
+                bar(tally.done, tally.total, _but_passes(tally))
 
         try:
             run(worlds, terms, limits, engine, results, show)
@@ -191,13 +191,13 @@ def _run(
                 talk(f"satcheck: {_recorded(tally, place)}")
                 raise
             results.finish()
-        code = exit_codes.for_counts(tally.verdicts)
-        if forgives and code == exit_codes.FINDINGS:
+        seen = None
+        if is_alone:
             from satcheck.cli.formats.assets import overview
 
             with StoredResults([path]) as stored:
-                code = overview(each.asset for each in stored).exit_code(exit_zero=True)
-    return tally, code
+                seen = overview(each.asset for each in stored)
+    return tally, seen
 
 
 def _recorded(tally: Tally, place: str) -> str:
@@ -205,24 +205,26 @@ def _recorded(tally: Tally, place: str) -> str:
     return f"{done}: the same command with --resume checks the others"
 
 
-def _verdicts(tally: Tally, but: str = "") -> str:
-    """Return `1 error, 5 pass`."""
+def _but_passes(tally: Tally) -> str:
+    """Return `1 error, 5 fail`."""
+    counts = ((tally.verdicts[verdict], verdict) for verdict in ASSET_VERDICTS)
     return ", ".join(
-        f"{tally.verdicts[verdict]:,} {verdict}"
-        for verdict in ASSET_VERDICTS
-        if tally.verdicts[verdict] and verdict != but
+        f"{count:,} {verdict}" for count, verdict in counts if verdict != "pass" and count
     )
 
 
-def _summary(tally: Tally, output: str, *, is_alone: bool) -> str:
-    """Return what a run says of its results. is_alone: no other document shows them."""
+def _summary(tally: Tally, seen: Overview | None, output: str) -> str:
+    """Return what a run says of its results. seen: where no other document shows them."""
     kept = f" ({tally.kept:,} kept)" if tally.kept else ""
-    verdicts = f": {_verdicts(tally)}{kept}" if tally.done else ""
+    if seen is None:
+        return f"{counted(tally.total, 'asset')}{kept}. Results: {output}"
+    from satcheck.cli.formats.assets import summary_line
+
     shows = ""
-    if is_alone and tally.verdicts["pass"] < tally.done and not is_url(output):
+    if seen.listed and not is_url(output):
         line = shlex.join(["satcheck", "view", output, "-o", "gallery.html"])
         shows = f"\nNext: {line} shows the worst findings."
-    return f"{counted(tally.total, 'asset')}{verdicts}. Results: {output}{shows}"
+    return f"{summary_line(seen)} Results: {output}{kept}{shows}"
 
 
 def check_options(

@@ -62,7 +62,7 @@ def worst_findings(results: Iterable[Stored], top: int) -> list[Worst]:
         for stored in results
         if (listed := [each for each in stored.asset.report.findings if _is_wrong(each)])
     )
-    return worst_of(findings, top, lambda each: rank(each.finding))
+    return worst_of(findings, top, lambda each: rank(each.finding, each.stored.asset.report.units))
 
 
 def _is_wrong(finding: Finding) -> bool:

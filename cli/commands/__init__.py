@@ -26,6 +26,7 @@ class Plugin(Struct, frozen=True):
     command: str
 
 
+DEFAULT_COMMAND = "check"  # its name is never typed
 # What each does, for the help of satcheck: that must not import them all. The first sentence of the
 # help of each command says the same.
 COMMANDS = {
@@ -54,8 +55,8 @@ def is_command(word: str) -> bool:
 
 
 def command_named(name: str) -> click.Command | None:
-    """Return the click command of this name; None: there is none."""
-    if name in COMMANDS:
+    """Return the click command of this name, also the default one; None: there is none."""
+    if name in (DEFAULT_COMMAND, *COMMANDS):
         return cast("click.Command", function_at(f"{__name__}.{name}:command"))
     plugin = _plugin(name)
     return None if plugin is None else cast("click.Command", function_at(plugin.command))

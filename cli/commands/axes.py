@@ -65,8 +65,8 @@ def command(
     Exit codes: 0, the axes show how the bodies relate; 2, wrong usage, an unreadable input, or an
     internal error; 3, the sign of an axis is not known, so they do not show it.
     """
-    inputs, form, document = plain_call(options, form, output)
-    refuse_plot(inputs, plot, output)
+    inputs, form, document = plain_call(options, form, output, plot)
+    refuse_plot(plot)
     scene = load(inputs, tell_all=True)
     if inputs.has_poses:
         scene = posed_once(scene, inputs, "axes are those of one pose: give one --pose")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import click
@@ -27,7 +27,7 @@ from satcheck.cli.stated_scene import read_stored
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import Baseline, KnownFinding, KnownUndecided
 from satcheck.report.json import document as json_document
-from satcheck.report.report import Report
+from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SamplesReport
 from satcheck.scene.opening import exists
 
@@ -114,21 +114,12 @@ def _update(
     without_figures: bool,
     undecided: bool,
 ) -> None:
-    known = [
-        finding
-        for asset, report in _named_reports(reports, file)
-        for finding in _named(
-            known_findings(report, asset, reason, unmeasured=without_figures),
-            report,
-            baseline,
-            file,
-        )
-    ]
-    still_open = [
-        pair
-        for asset, report in _named_reports(reports, file)
-        for pair in (known_undecided(report, asset, reason) if undecided else ())
-    ]
+    known: list[KnownFinding] = []
+    still_open: list[KnownUndecided] = []
+    for asset, report in _named_reports(reports, file):
+        found = known_findings(report, asset, reason, unmeasured=without_figures)
+        known += _named(found, report, baseline, file)
+        still_open += known_undecided(report, asset, reason) if undecided else ()
     after = updated(baseline, known, still_open)
     _refuse_unmeasured(baseline, after)
     _write(file, baseline, after)
@@ -189,15 +180,21 @@ def _named_reports(paths: Sequence[Path], file: Path) -> Iterator[tuple[str, Rep
             reason = "a report of several poses has no findings that a baseline knows"
             raise SatcheckError("bad-report", reason, file=str(path))
         else:
+            _tell(document.issues)
             for asset in document.assets:
                 yield asset_key(asset.file, file), asset.report
 
 
+def _tell(issues: Iterable[Issue]) -> None:
+    """Say what lets a whole batch be incomplete: its pairs that were not checked are not known."""
+    for issue in issues:
+        if issue.severity == "error":
+            raise SatcheckError(issue.code, issue.message)
+        talk(f"satcheck: {issue_line(issue)}")
+
+
 def _of_results(path: Path, file: Path) -> Iterator[tuple[str, Report]]:
     with StoredResults([path]) as results:
-        for issue in results.issues:
-            if issue.severity == "error":
-                raise SatcheckError(issue.code, issue.message)
-            talk(f"satcheck: {issue_line(issue)}")
+        _tell(results.issues)
         for each in results:
             yield asset_key(each.asset.file, file), each.asset.report

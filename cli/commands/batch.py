@@ -220,8 +220,8 @@ def _refuse(
     if baseline is not None and any(map(is_remote, worlds)):
         raise click.UsageError("--baseline knows the assets of this machine, and none at a URL")
     read = Inputs(paths=files, rules=inputs.rules)
-    for output in outputs if files else ():
-        refuse_early(read, output, baseline)
+    if files and outputs:
+        refuse_early(read, outputs, baseline)
     readers = [mesh_reader(Path(name).suffix) for name in files]
     for name in typed(inputs.reading):
         if None not in readers and not any(

@@ -25,7 +25,7 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import all_commands
 from satcheck.cli.format_option import format_option, targets_of
 from satcheck.cli.formats.registry import ALL, function_of, kind_of
-from satcheck.cli.inputs import Inputs, load, worlds_of
+from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.option import length, settings_of
 from satcheck.cli.output import Document, talk
 from satcheck.cli.progress import Bar
@@ -35,7 +35,6 @@ from satcheck.cli.rendering import (
     refuse_certificate,
     refuse_of_poses,
     refuse_of_worlds,
-    refuse_outputs,
 )
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
@@ -213,7 +212,7 @@ def command(
 ) -> int:
     """Check bodies, or robots in many poses. The exit code is returned."""
     inputs = Inputs.taken_from(options)
-    refuse_outputs(outputs, inputs, baseline)
+    refuse_early(inputs, outputs, baseline)
     to = Delivery(
         targets_of(form, outputs, ALL), quiet, exit_zero, options["timings"], top, explain
     )

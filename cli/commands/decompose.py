@@ -16,7 +16,7 @@ from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call, product_and_report
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.inputs import load, refuse_early
+from satcheck.cli.inputs import load
 from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
 from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
@@ -93,8 +93,7 @@ def command(
     parts_out, output = product_and_report(outputs, written_meshes.FORMATS, form)
     if not options["paths"]:
         raise click.UsageError("give a mesh file or a scene")
-    inputs, form, document = plain_call(options, form, output)
-    refuse_early(inputs, parts_out)
+    inputs, form, document = plain_call(options, form, output, parts_out)
     seconds = inputs.limit["body-seconds"]
     scene = load(inputs, least=1)
     if parts_out is not None:

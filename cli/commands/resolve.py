@@ -15,7 +15,7 @@ from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call, product_and_report
 from satcheck.cli.formats.resolution import render
-from satcheck.cli.inputs import Inputs, load, refuse_early
+from satcheck.cli.inputs import Inputs, load
 from satcheck.cli.option import in_units_of, length, settings_of
 from satcheck.cli.output import issue_line, talk, write_file
 from satcheck.cli.posing import posed_once
@@ -81,7 +81,7 @@ def command(
     or an internal error; 3, nothing is known to overlap, but not everything could be checked.
     """
     scene_out, output = product_and_report(outputs, (".toml", ".scene.json"), form)
-    inputs, form, document = plain_call(options, form, output)
+    inputs, form, document = plain_call(options, form, output, scene_out)
     if scene_out is not None:
         _refuse_output(inputs, scene_out)
     scene = load(inputs)
@@ -116,7 +116,6 @@ def command(
 
 def _refuse_output(inputs: Inputs, moved: Path) -> None:
     """Refuse what cannot be written before any work is done."""
-    refuse_early(inputs, moved)
     paths, permitted = inputs.paths, inputs.permitted
     bodies = [path for path in paths if len(paths) == 1 or not is_rules(path, permitted)]
     kinds = {kind_of(path) for path in bodies}

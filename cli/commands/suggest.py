@@ -17,9 +17,10 @@ from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import Limits
 from satcheck.audit.batch.slot_server import Wanted
 from satcheck.audit.settings import Settings
-from satcheck.audit.suggest import MEASURED, Suggestions, suggest, suggestions_of
+from satcheck.audit.suggest import LOOSER, MEASURED, Suggestions, suggest, suggestions_of
 from satcheck.cli import exit_codes, option, scene_option
-from satcheck.cli.click_classes import DEFAULT_COMMAND, HELP_NAMES, Command
+from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.commands import DEFAULT_COMMAND
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import Format
 from satcheck.cli.formats.suggest import remark, srdf, toml
@@ -79,7 +80,7 @@ def command(
     inputs = Inputs.taken_from(options)
     named = form_of(form, output, FORMATS)
     form = named if named in FORMATS else "toml"
-    refuse_early(inputs, output)
+    refuse_early(inputs, [output])
     document = Document()
     told: set[str] = set()
     of_folders = any(map(is_folder, inputs.paths))
@@ -114,6 +115,10 @@ def command(
         name = "batch" if of_folders else DEFAULT_COMMAND
         line = call_of(name, inputs.paths, ["--rules", str(output)])
         talk(f"Next: {line} checks with these rules.")
+    if any(pair.reason.startswith(LOOSER) for pair in result.report.unchecked):
+        line = call_of("batch", inputs.paths, ["-o", "report.json"])
+        talk(f"Next: {line}, then satcheck baseline write baseline.json report.json accepts what")
+        talk("each asset has now; satcheck suggest ASSET makes rules for one asset alone.")
     if form == "srdf" and pairs:
         talk("An SRDF has one line for two links: it covers all pairs of their bodies.")
     if errors:

@@ -49,8 +49,8 @@ def command(
     Exit codes: 0, every rung has answered; 2, wrong usage, an unreadable input, or an internal
     error; 3, a rung failed or was not run, or the truth is not known.
     """
-    inputs, form, document = plain_call(options, form, output)
-    refuse_plot(inputs, plot, output)
+    inputs, form, document = plain_call(options, form, output, plot)
+    refuse_plot(plot)
     scene = load(inputs, tell_all=True)
     scene.require_in_space("tradeoff compares meshes in space only")
     pair = two_of(scene, bodies)

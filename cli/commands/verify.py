@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -56,10 +55,12 @@ def command(
     usage, an unreadable report, no certificate in it, a missing mesh file, or an internal error.
     """
     _, form, document = plain_call({"paths": (str(report),)}, form, output)
-    content = _read(report)
     try:
+        content = parse(read_whole(str(report), report).decode())
         with Bar("verdicts", "verifying") as bar:
             result = verify(content, root, bar, allow_outside=allow_outside)
+    except UnicodeDecodeError:
+        raise SatcheckError("bad-report", f"{report}: not UTF-8") from None
     except Rejected as why:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
     certified = is_certified(result, content)
@@ -73,17 +74,6 @@ def command(
     if result.missing and not result.rejected:
         return exit_codes.ERROR
     return exit_codes.CLEAN if result.accepted else exit_codes.FINDINGS
-
-
-def _read(report: Path) -> Any:
-    try:
-        text = read_whole(str(report), report).decode()
-    except UnicodeDecodeError:
-        raise SatcheckError("bad-report", f"{report}: not UTF-8") from None
-    try:
-        return parse(text)
-    except Rejected as why:
-        raise SatcheckError("bad-report", f"{report}: {why}") from None
 
 
 def _missing(result: VerificationReport, root: Path) -> str:

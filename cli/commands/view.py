@@ -23,13 +23,12 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import Target, format_option, targets_of
 from satcheck.cli.formats.assets import asset_rank, overview
 from satcheck.cli.formats.registry import ALL, Format, kind_of
-from satcheck.cli.inputs import Inputs
+from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.output import Document, issue_line, talk, write_file
 from satcheck.cli.rendering import (
     Delivery,
     files_line,
     refuse_of_poses,
-    refuse_outputs,
     rendered,
 )
 from satcheck.cli.stated_scene import read_stored, stated_scene
@@ -129,7 +128,7 @@ def command(
     """
     inputs = Inputs(paths=tuple(map(str, (*reports, *filter(None, [manifest])))))
     is_opened = form is None and not outputs and folder is None
-    refuse_outputs(outputs, inputs)
+    refuse_early(inputs, outputs)
     targets = () if is_opened else targets_of(form, outputs, ALL, _FORMATS)
     to = Delivery(targets, False, exit_zero, timings=True, top=top, parts=parts, pose=pose)
     view = _View(Document(), to, Drawing(root, folder, allow_outside, top or TOP))

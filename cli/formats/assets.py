@@ -151,18 +151,17 @@ def _counts(seen: Overview, *, names: bool) -> str:
 
 
 def next_step(seen: Overview) -> list[str]:
-    failing = seen.named.get("fail", [])[:1]
-    unsure = [] if failing else seen.named.get("incomplete", [])[:1]
-    failing, unsure = (
-        [file for file in files if not (is_folder(file) or is_url(file))]  # which no check reads
-        for files in (failing, unsure)
-    )
     ctx = click.get_current_context(silent=True)
-    if ctx is None or ctx.info_name != "view":
-        steps = [f"Next: {_check_of(file)} lists its pairs." for file in failing]
-        return steps + [f"Next: {_check_of(file)} says what is open." for file in unsure]
-    is_written = bool(ctx.params.get("outputs"))
-    return ["Next: -o worst.html shows the worst pairs."] if failing and not is_written else []
+    verdict: AssetVerdict = "fail" if seen.named.get("fail") else "incomplete"
+    files = (f for f in seen.named.get(verdict, []) if not (is_folder(f) or is_url(f)))
+    file = next(files, None)  # a check reads neither folders nor URLs
+    if file is None:
+        return []
+    if ctx is not None and ctx.info_name == "view":
+        is_written = bool(ctx.params.get("outputs")) or verdict != "fail"
+        return [] if is_written else ["Next: -o worst.html shows the worst pairs."]
+    says = "lists its pairs" if verdict == "fail" else "says what is open"
+    return [f"Next: {_check_of(file)} {says}."]
 
 
 def _steps_of_folders(seen: Overview) -> list[str]:
@@ -185,19 +184,18 @@ def _steps_of_folders(seen: Overview) -> list[str]:
 
 def _check_of(file: str) -> str:
     """With the options of this call, if a command renders."""
-    ctx = click.get_current_context(silent=True)
-    if ctx is None or ctx.info_name != "batch":
+    if click.get_current_context(silent=True) is None:
         return f"satcheck {shlex.quote(file)}"
-    from satcheck.cli.click_classes import DEFAULT_COMMAND
+    from satcheck.cli.commands import DEFAULT_COMMAND
     from satcheck.cli.slips import call_of
 
     return call_of(DEFAULT_COMMAND, [file])
 
 
 def _named(seen: Overview, verdict: AssetVerdict) -> str:
-    """` (a.glb, b.glb, c.glb, ...)`; what passes is not named."""
-    files = seen.named[verdict] if verdict != "pass" else []
-    more = ", ..." if len(files) > NAMED else ""
+    """` (a.glb, b.glb, c.glb, ...)`, the worst first; what passes is not named."""
+    files = seen.named.get(verdict, []) if verdict != "pass" else []
+    more = ", ..." if seen.counts[verdict] > NAMED else ""
     return f" ({', '.join(files[:NAMED])}{more})" if files else ""
 
 
@@ -233,8 +231,8 @@ def _listed(asset: Asset) -> list[Problem]:
 
 
 class Overview(Struct):
-    """counts: of each verdict; forgiven: of each if nothing failed. named: the first assets with
-    each verdict, one more than are shown.
+    """counts: of each verdict; forgiven: of each if nothing failed. named: the worst assets with
+    each verdict, of those that a table may show.
     unchecked: the number of passing assets whose pairs are all allowed; lone: of those with one
     body or none; folders: of those that stand for accepted files which no reader knows, and are no
     assets. compared: the number of assets with a question. accepted: the number of accepted issues.
@@ -288,9 +286,6 @@ class Overview(Struct):
         self.counts[asset.verdict] += 1
         fails = asset.verdict == "fail"
         self.forgiven[exit_codes.without_failures(asset.report) if fails else asset.verdict] += 1
-        named = self.named.setdefault(asset.verdict, [])
-        if len(named) <= NAMED:
-            named.append(asset.file)
         self.compared += bool(asset.report.summary.pairs.asked or asset.report.answers)
         self.accepted += sum(issue.state == "accepted" for issue in asset.report.issues)
         if asset.verdict == "pass":
@@ -318,8 +313,10 @@ def overview(
     """Return what is known of the assets. issues: about all of them. top: how many are shown at
     most, the worst first. compares: without a pair nothing passes."""
     made = Overview()
-    worst = worst_of(map(made.noting, assets), ROWS if top is None else top, asset_rank)
-    made.shown = [each for each in worst if each.verdict != "pass"]
+    worst = worst_of(map(made.noting, assets), max(top or 0, ROWS), asset_rank)
+    for each in worst:
+        made.named.setdefault(each.verdict, []).append(each.file)
+    made.shown = [each for each in worst[: top or ROWS] if each.verdict != "pass"]
     empty = (_NOTHING_COMPARED,) if compares and not made.compared else ()
     made.issues = (*empty, *issues)
     return made
@@ -330,7 +327,8 @@ _T = TypeVar("_T")
 
 def asset_rank(asset: Asset) -> tuple[float, ...]:
     """The lower the worse: by verdict, then by the worst finding."""
-    worst = min(map(rank, asset.report.findings), default=(inf,))
+    ranks = (rank(finding, asset.report.units) for finding in asset.report.findings)
+    worst = min(ranks, default=(inf,))
     return (ASSET_VERDICTS.index(asset.verdict), *worst)
 
 

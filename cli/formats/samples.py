@@ -69,7 +69,9 @@ def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
         said.append(config_line(result.config))
     said += [samples_counts(result), samples_verdict(result)]
     if result.summary.verdict == "fail":
-        said.append("Next: -o report.html shows the poses in 3-D.")
+        shown = "the poses in 3-D" if result.truncated is None else those_listed(result)
+        deepest = "" if result.settings.depth else "; --depth finds the deepest of each pair"
+        said.append(f"Next: -o report.html shows {shown}{deepest}.")
     return joined([*lines, *fitted_each(said, page)], page)
 
 
@@ -155,6 +157,14 @@ def samples_counts(result: SamplesReport) -> str:
         f"{f', {result.summary.pairs.exempt:,} more exempt' if result.summary.pairs.exempt else ''}"
         f": {', '.join(parts)}."
     )
+
+
+def those_listed(result: SamplesReport) -> str:
+    """`20 poses of 20`, `the first 100 poses with a finding, of 3,000`"""
+    listed = counted(len(result.samples), "pose")
+    if result.truncated is not None:
+        listed = f"the first {listed} with a finding,"
+    return f"{listed} of {result.summary.samples:,}"
 
 
 def samples_verdict(result: SamplesReport) -> str:

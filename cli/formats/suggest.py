@@ -212,6 +212,12 @@ def remark(suggestions: Suggestions, pairs: Sequence[Suggestion], *, never: bool
     looser = Counter(_left_out(pair) for pair in report.unchecked if pair.reason.startswith(LOOSER))
     for text, count in looser.items():
         said += f"\nNot suggested: {text} ({counted(count, 'asset')})"
+    if assets := suggestions.without_unit:
+        named = ", ".join((*assets[:_NAMED], *(("...",) if assets[_NAMED:] else ())))
+        said += (
+            f"\n{named}: no unit is stated, and lengths count in {unit_of(report.units)}, as in a "
+        )
+        said += "check with these rules. --units states another unit."
     undecided = [each for each in suggestions.undecided.items() if not each[1].startswith(LOOSER)]
     for pair, reason in undecided[:_NAMED]:
         said += f"\nNot decided: {pair}: {reason.removeprefix('undecided: ')}"

@@ -70,7 +70,10 @@ def _text(path: str) -> str:
     except UnicodeDecodeError:
         raise SatcheckError("bad-encoding", "the file of poses is not UTF-8", file=path) from None
     except SatcheckError as error:
-        hint = '; values themselves are written {"joint": value}' if "=" in path else ""
+        hint = ""
+        if error.code == "file-not-found":
+            hint = ': give a file of poses (JSON, or CSV of a path), or values, {"joint": value}; '
+            hint += "--state takes names of states"
         raise SatcheckError(error.code, error.message + hint, file=path) from None
 
 

@@ -222,7 +222,11 @@ def pose_of_states(scene: Scene, names: Iterable[str]) -> Pose:
                 message = f"{line}state {state.name!r}: {error.message}"
                 raise SatcheckError(error.code, message, file=state.file) from None
             if pose.setdefault(joint, values) != values:
-                raise SatcheckError("bad-pose", f"two states give joint {joint!r} different values")
+                message = (
+                    f"two states give joint {joint!r} different values: together they are one "
+                )
+                message += "pose; --pose takes several, and --path sweeps through them"
+                raise SatcheckError("bad-pose", message)
     return pose
 
 

@@ -384,3 +384,26 @@ def test_all_bodies_are_not_red(opened: Opened) -> None:
     page = opened(*SCENES["rack"])
     press(page, "a")
     assert 0 < share(page, "red") < 0.002  # a dot
+
+
+@pytest.mark.parametrize(("height", "least", "most"), [(12.48, 0.002, 1.0), (12.5, 0.0, 0.0)])
+def test_an_overlap_thinner_than_a_pixel_is_red(
+    opened: Opened, tmp_path: Path, height: float, least: float, most: float
+) -> None:
+    """A block stands 0.02 mm deep in a plate that is seen at a low angle. One that stands on it has
+    a face in the plane of the plate, which is not red from anywhere."""
+    shape = 'shape = {{type = "box", size = {}}}\nposition = {}\n'
+    bodies = {
+        "plate": shape.format([50, 30, 5], [0, 0, 0]),
+        "block": shape.format([20, 20, 20], [5, 2, height]),
+    }
+    text = "".join(f'[[bodies]]\nid = "{id_}"\n{lines}' for id_, lines in bodies.items())
+    path = tmp_path / ("thin.toml" if least else "flush.toml")
+    path.write_text(f'schema = "satcheck.scene/1"\nunits = "mm"\n{text}')
+    page = opened("--fail-on", "note", str(path))
+    page.evaluate("for (const id of ['ball', 'names']) element(id).checked = false")
+    page.evaluate("picture.strips = []; report.findings[0].overlaps = true")
+    assert least <= share(page, "red") <= most
+    for turn in range(20):
+        page.evaluate(f"camera.turn(0.37, {0.05 if turn % 2 else -0.04})")
+        assert share(page, "red") <= most, turn

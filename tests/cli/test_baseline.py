@@ -415,6 +415,19 @@ def test_a_stored_baseline_without_figures_proves_nothing() -> None:
     assert state(accepted, replace(DEEPER, undecided="cross-check")) == "undecided"
 
 
+def test_a_baseline_of_an_interrupted_batch_says_so(tmp_path: Path) -> None:
+    table(tmp_path, 2.0)
+    satcheck("batch", "table.toml", "-o", "report.json", cwd=tmp_path)
+    path = tmp_path / "report.json"
+    told = "interrupted: 1 of 2 assets was not checked"
+    issue: dict[str, str | None] = {"code": "interrupted", "severity": "warning", "message": told}
+    issue |= {"body": None, "file": None}
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"issues": [issue]}))
+    for way in ("write", "update", "prune"):
+        ran = satcheck("baseline", way, "known.json", "report.json", cwd=tmp_path)
+        assert (ran.code, ran.err) == (0, f"satcheck: warning: {told} [interrupted]\n")
+
+
 def shell(folder: Path, units: str = "mm") -> None:
     """A scene of an open shell with a box in its mouth: the fill of the hole decides."""
     write(folder, shell=open_box(), part=unit_box(1, 1, 3.5))
@@ -483,8 +496,8 @@ def test_results_of_a_batch_make_the_same_baseline_as_its_report(tmp_path: Path)
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("r.json",), "baseline has no command r.json: it has prune, update, write"),
-        (("wirte", "b.json", "r.json"), "did you mean 'write'?"),
+        (("r.json",), "No such command 'r.json'"),
+        (("wirte", "b.json", "r.json"), "Did you mean 'write'?"),
         (("write", "r.json", "b.json"), "there is no b.json: the baseline comes before"),
         (("write", "r.json", "-o", "b.json"), "\n  satcheck baseline write b.json r.json\n"),
     ],

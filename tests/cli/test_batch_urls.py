@@ -134,7 +134,7 @@ def test_manifest_and_results_at_urls(folder: Path) -> None:
     before = output.read_bytes()
     (folder / "0001.toml").write_text("bodies = 1\n")
     resumed = satcheck(*call, "--resume", env=cache)
-    assert "1 error" in resumed.err
+    assert "1 has errors" in resumed.err
     assert "2 kept" in resumed.err
     assert output.read_bytes() != before
 

@@ -222,7 +222,7 @@ def test_csv_of_assets_in_several_units_has_a_column_of_them() -> None:
     some = [replace(scene_report(PENETRATING), units=units) for units in ("mm", "meter")]
     rows = rows_of(render({"a.glb": some[0], "b.glb": some[1]}, "csv"))
     named = [(row["asset"], row["units"]) for row in rows if row["depth"]]
-    assert named == [("a.glb", "mm"), ("b.glb", "m")]
+    assert named == [("b.glb", "m"), ("a.glb", "mm")]  # the larger overlap first
 
 
 def test_csv_tells_what_a_baseline_accepts() -> None:

@@ -228,6 +228,32 @@ def test_the_table_ends_with_the_verdict(assets: Path) -> None:
     assert line == shlex.join(["satcheck", "suggest", str(assets), "-o", "rules.toml"])
 
 
+def kit_of_three(folder: Path) -> None:
+    """Overlaps of 1 mm, 0.25 m and 2 mm; the names are in no order of these."""
+    (folder / "kit").mkdir()
+    plate = 'id = "plate", shape = {type = "box", size = [10, 10, 2]}'
+    for name, units, depth in (("a", "mm", 1), ("b", "m", 0.25), ("c", "mm", 2)):
+        bolt = 'id = "bolt", shape = {type = "box", size = [2, 2, 3]}, position = '
+        bodies = f"bodies = [{{{plate}}}, {{{bolt}[0, 0, {2.5 - depth}]}}]"
+        text = f'schema = "satcheck.scene/1"\nunits = "{units}"\n{bodies}\n'
+        (folder / "kit" / f"{name}.toml").write_text(text)
+
+
+def test_the_worst_asset_is_named_first(tmp_path: Path) -> None:
+    kit_of_three(tmp_path)
+    ran = satcheck("batch", "kit", cwd=tmp_path)
+    assert "FAIL: 3 assets: 3 fail (kit/b.toml, kit/c.toml, kit/a.toml).\n" in ran.out
+    assert "\nNext: satcheck kit/b.toml lists its pairs.\n" in ran.out
+
+
+def test_results_alone_name_the_worst_assets(tmp_path: Path) -> None:
+    kit_of_three(tmp_path)
+    ran = satcheck("batch", "kit", "-o", "r.jsonl", cwd=tmp_path)
+    assert (ran.code, ran.out) == (1, "")
+    named = "FAIL: 3 assets: 3 fail (kit/b.toml, kit/c.toml, kit/a.toml). Results: r.jsonl\n"
+    assert ran.err.startswith(named)
+
+
 def test_three_commands_that_the_screen_names_make_a_gate(tmp_path: Path) -> None:
     (tmp_path / "my props").mkdir()
     shutil.copy(SAMPLES / "gripper.glb", tmp_path / "my props")

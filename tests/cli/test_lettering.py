@@ -9,7 +9,9 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.cli.formats.picture.lettering import _STROKE, _STROKES, plain, width_of, write
-from satcheck.cli.formats.picture.png import BAND, INK, render
+from satcheck.cli.formats.picture.moments import Moments
+from satcheck.cli.formats.picture.png import BAND, FORCE, INK, KINDS, View, _label, render
+from satcheck.cli.formats.picture.shown import Label, Shows
 from satcheck.scene.meshes import scene_of_meshes
 from tests.cli.test_png import image_of, near, pixels
 from tests.cli.test_viewpoint import box
@@ -57,6 +59,29 @@ def test_the_caption_is_below_the_picture() -> None:
     band = image[-40:]
     assert near(band, BAND, 0.01).mean() > 0.5
     assert near(band, INK).any()
+
+
+def test_long_names_end_within_the_image() -> None:
+    """The caption has both on one line; the letters of a label have its colour beside them."""
+    names = [letter * 60 for letter in "HM"]
+    scene = scene_of_meshes({n: box((1, 1, 1), (k / 2, 0, 0)) for k, n in enumerate(names)})
+    image = pixels(render(check(scene, Settings(depth=True)), scene, (400, 300)))
+    assert not near(image[:, -2:], INK).any()
+    assert near(image, INK).sum() > 300
+
+
+def test_labels_that_meet_stay_within_the_image() -> None:
+    """They stand below each other, and at the lower edge above."""
+    image = np.ones((60, 100, 3), np.uint8)
+    bodies = (box((1, 1, 1), (0, 0, 0)), box((1, 1, 1), (0.5, 0, 0)))
+    scene = scene_of_meshes(dict(zip("ab", bodies, strict=True)))
+    shown = Shows(check(scene), scene, Moments(), "z").of(check(scene).findings[0])
+    labels = [Label(text, np.zeros(3), "gap") for text in ("one", "two", "six")]
+    view = View(np.eye(3), np.zeros(3), 1.0, (10.0, 58.0))
+    _label(image, shown._replace(labels=labels), view)
+    strip = np.array(KINDS[FORCE].colour) * 255.0
+    rows = (abs(image - strip).max(axis=2) < 1.0).any(axis=1)
+    assert rows.sum() >= 12 * len(labels)
 
 
 @pytest.mark.parametrize("inner", ["a", "b"])

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import trimesh
+from msgspec.structs import replace
 
 from satcheck.audit import check
 from satcheck.audit.samples import check_poses
@@ -17,6 +19,7 @@ from satcheck.cli.formats.picture.moments import Moments, moments_of
 from satcheck.cli.formats.picture.poses import all_poses, one_pose, worst_pose
 from satcheck.cli.formats.picture.shown import Shows
 from satcheck.core.errors import SatcheckError
+from satcheck.report.samples import SamplesTruncated
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.robot import RandomPoses, posed, read_path, with_joint_path
 from tests.cli.process import SAMPLES, satcheck
@@ -111,6 +114,27 @@ def test_a_pose_without_a_finding_says_what_to_run() -> None:
     assert caught.value.code == "not-drawable"
     with pytest.raises(SatcheckError, match="is not in the report"):
         one_pose(report, scene, 61)
+    first = min(report.pairs, key=lambda pair: pair.first_overlap or 999)
+    bare = replace(report, samples=(), truncated=SamplesTruncated(60, "too many"))
+    said = rf"comes after those .*: --pose '{re.escape(json.dumps(first.first_pose))}' -o pose.html"
+    with pytest.raises(SatcheckError, match=said):
+        one_pose(bare, scene, first.first_overlap or 0)
+
+
+@pytest.mark.parametrize(
+    ("more", "end"),
+    [
+        (("60",), "shows the poses in 3-D; --depth finds the deepest of each pair.\n"),
+        (("60", "--depth"), "shows the poses in 3-D.\n"),
+        (
+            ("1001", "--seed", "3"),
+            " poses with a finding, of 1,001; --depth finds the deepest of each pair.\n",
+        ),
+    ],
+)
+def test_the_last_line_says_which_poses_a_page_shows(more: tuple[str, ...], end: str) -> None:
+    ran = satcheck(*ARM, "--sample", *more, env={"COLUMNS": "400"})
+    assert ran.out.endswith(end)
 
 
 def test_poses_are_drawn_and_viewed_alike(tmp_path: Path) -> None:

@@ -65,7 +65,7 @@ def test_the_table_lists_the_worst_scene_first(folder: Path) -> None:
     ran = report(folder, "all.jsonl")
     rows = [line.split() for line in ran.out.splitlines() if ".toml  " in line]
     assert [row[0] for row in rows] == ["broken.toml", "c.toml", "b.toml"]
-    assert "ERROR: 4 assets: 1 has errors (broken.toml), 2 fail (b.toml, c.toml), 1" in ran.out
+    assert "ERROR: 4 assets: 1 has errors (broken.toml), 2 fail (c.toml, b.toml), 1" in ran.out
     assert ran.code == 2
 
 

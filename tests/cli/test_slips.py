@@ -47,6 +47,7 @@ def expanded(command: str, folder: Path) -> list[str]:
             ["--clearance", "2", "."],
             ["batch --clearance 2 .", "--clearance 2 *.glb *.obj *.off *.stl"],
         ),
+        (["my parts/box.obj", "my parts"], ["batch 'my parts'", "'my parts'/*.obj"]),
         (["box.obj"], ["batch box.obj", "box.obj box_flush.stl"]),
         (["check", "box.obj", "cube.off"], ["box.obj cube.off"]),
         (["help"], ["--help"]),
@@ -132,6 +133,14 @@ def test_of_a_known_slip_no_other_option_is_proposed(folder: Path) -> None:
     said = satcheck("box.obj", "cube.off", "--html", cwd=folder).err
     assert "No such option '--html'.\n" in said
     assert "--help'?" not in said
+
+
+def test_an_option_of_other_commands_says_whose_it_is(folder: Path) -> None:
+    said = satcheck("batch", "--pose", "x.json", ".", cwd=folder).err
+    assert "--pose is an option of satcheck A B, satcheck axes, satcheck resolve, " in said
+    assert "--jobs" not in said
+    said = satcheck("--pin", "a", "box.obj", "cube.off", cwd=folder).err
+    assert said.endswith("of satcheck resolve:\n  satcheck resolve --pin a box.obj cube.off\n")
 
 
 def test_a_file_named_like_a_word_of_other_programs_can_be_checked(folder: Path) -> None:

@@ -249,7 +249,14 @@ def test_a_rule_that_would_loosen_another_asset_is_not_suggested(
     (tmp_path / "rules.toml").write_text(ran.out)
     assert satcheck("batch", "kit", "--rules", "rules.toml", cwd=tmp_path).code == 1
     assert "not suggested: plate and bolt1: a rule goes by names" in ran.out
-    assert "satcheck baseline keeps the figures of each asset" in ran.err
+    lines = (
+        "satcheck batch kit -o report.json",
+        "satcheck baseline write baseline.json report.json",
+    )
+    assert f"\nNext: {', then '.join(lines)} accepts what\neach asset has now" in ran.err
+    for line in lines:
+        assert satcheck(*line.split()[1:], cwd=tmp_path).code in (0, 1)
+    assert satcheck("batch", "kit", "--baseline", "baseline.json", cwd=tmp_path).code == 0
 
 
 def test_pairs_of_the_same_names_are_left_out_in_one_line(tmp_path: Path) -> None:
@@ -260,7 +267,7 @@ def test_pairs_of_the_same_names_are_left_out_in_one_line(tmp_path: Path) -> Non
     said = "plate and bolt1: a rule goes by names: it would let bodies of these names overlap more"
     assert ran.out.count(f"# not suggested: {said}") == 1
     assert ran.err.count(f"Not suggested: {said}") == 1
-    assert "the figures of each asset (3 assets)\n" in ran.err
+    assert "overlap more in kit/r.toml (3 assets)\n" in ran.err
     assert "Not decided" not in ran.err
 
 
@@ -273,7 +280,7 @@ def test_a_touch_of_the_same_names_in_another_asset_stays_without_a_rule(tmp_pat
     assert ran.code == 3
     assert tomllib.loads(ran.out)["rules"] == []
     assert "No pair is suggested." in ran.err
-    assert "overlap more in kit/stool.glb; satcheck baseline keeps" in ran.err
+    assert "overlap more in kit/stool.glb (1 asset)\n" in ran.err
 
 
 def kit_of_two(folder: Path) -> None:
@@ -298,19 +305,21 @@ def test_limits_for_assets_in_several_units_are_in_the_smallest(tmp_path: Path) 
     assert satcheck(*checked, cwd=tmp_path).code == 1
 
 
-def test_limits_for_assets_with_and_without_a_unit_need_one(tmp_path: Path) -> None:
+def test_lengths_without_a_unit_count_as_in_the_check_with_the_rules(tmp_path: Path) -> None:
     (tmp_path / "kit").mkdir()
     shutil.copy(SAMPLES / "rack.3mf", tmp_path / "kit")
-    shutil.copy(SAMPLES / "gripper.glb", tmp_path / "kit")
     plain = 'schema = "satcheck.scene/1"\nbodies = [\n'
     for k in range(2):
         plain += f'{{id = "b{k}", shape = {{type = "box", size = [1, 1, 1]}}, '
         plain += f"position = [{STEP * k}, 0, 0]}},\n"
     (tmp_path / "kit" / "plain.toml").write_text(f"{plain}]\n")
-    ran = satcheck("suggest", "kit", cwd=tmp_path)
-    assert ran.code == 2
-    assert "kit/plain.toml states no unit of length" in ran.err
-    assert "add --units" in ran.err
+    ran = satcheck("suggest", "kit", "-o", "rules.toml", cwd=tmp_path)
+    assert ran.code == 0, ran.err
+    assert "\nkit/plain.toml: no unit is stated, and lengths count in mm, as in a check" in ran.err
+    document = tomllib.loads((tmp_path / "rules.toml").read_text())
+    assert document["units"] == "mm"
+    assert ("b0", 0.275) in [(rule["a"], rule["max_depth"]) for rule in document["rules"]]
+    assert satcheck("batch", "kit", "--rules", "rules.toml", cwd=tmp_path).code == 0
 
 
 def test_rules_of_a_folder_for_one_of_its_assets_warn_of_nothing(tmp_path: Path) -> None:

@@ -77,7 +77,7 @@ def _rows(report: Report) -> Iterator[tuple[tuple[float, ...], dict[str, Any]]]:
         if finding.relation == "separated" and len(report.findings) > 1 and not has_answer:
             continue
         both = {"file_a": files[finding.a], "file_b": files[finding.b]}
-        yield rank(finding), row_of(finding, report) | both
+        yield rank(finding, report.units), row_of(finding, report) | both
 
 
 def _with_unit(column: str, unit: str | None) -> str:

@@ -168,6 +168,8 @@ def _captioned(
 ) -> Pixels:
     """Lines of words below an image. Each word may have the colour of a kind before it."""
     letter, (width, height) = _letter(size), size
+    longest = max(sum(width_of(text, 1.0) + 3.7 for _, text in words) for words in lines)
+    letter = min(letter, width / longest)
     band = np.empty((height - len(image), width, 3), np.uint8)
     band[:] = np.array(BAND) * 255.0
     for row, words in enumerate(lines):
@@ -182,8 +184,11 @@ def _captioned(
 
 
 def _label(image: Pixels, shown: Shown, view: View) -> None:
-    """Each label beside its point, and below those that are in its way."""
-    letter = 0.85 * _letter((image.shape[1], image.shape[0]))
+    """Each label beside its point, or in the nearest free row below or above it. Letters are so
+    small that the longest label has room."""
+    height, width = image.shape[:2]
+    longest = max((width_of(label.text, 1.0) + 1.6 for label in shown.labels), default=1.0)
+    letter = min(0.85 * _letter((width, height)), width / longest)
     taken: list[tuple[float, float, float]] = []
     high = 2.0 * letter
     for text, at, kind in shown.labels:
@@ -192,15 +197,16 @@ def _label(image: Pixels, shown: Shown, view: View) -> None:
             point = np.asarray(placed_point(shown.pair["ab".index(kind)], at))
         x, y, _ = view.seen(point)
         wide = width_of(text, letter) + 1.6 * letter
-        left = min(max(x + letter, 0.0), image.shape[1] - wide)
-        top = min(max(y - 1.5 * high, 0.0), image.shape[0] - high)
-        while (
-            other := next(
-                (o for o in taken if left < o[1] and o[0] < left + wide and abs(top - o[2]) < high),
-                None,
-            )
-        ) is not None:
-            top = other[2] + 1.05 * high
+        left = min(max(x + letter, 0.0), width - wide)
+        first = min(max(y - 1.5 * high, 0.0), height - high)
+        tops = [row for low, end, row in taken if left < end and low < left + wide]
+        rows = [first, *(row + step for step in (1.05 * high, -1.05 * high) for row in tops)]
+        free = (
+            row
+            for row in sorted(rows, key=lambda row: abs(row - first))
+            if 0.0 <= row <= height - high and all(abs(row - other) >= high for other in tops)
+        )
+        top = next(free, first)
         taken.append((left, left + wide, top))
         _fill(image, left, top, wide, high, BAND, 0.85)
         _fill(image, left, top, 0.4 * letter, high, KINDS[_LABELS[kind]].colour, 1.0)

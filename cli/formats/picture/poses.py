@@ -7,11 +7,12 @@ import json
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec import to_builtins
 from msgspec.structs import replace
 
 from satcheck.audit.words import counted, is_listed, rank
 from satcheck.cli.formats.picture.moments import Moments
-from satcheck.cli.formats.samples import samples_counts, samples_verdict
+from satcheck.cli.formats.samples import samples_counts, samples_verdict, those_listed
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import PairCounts, Report, Summary
 from satcheck.scene.bodies import IDENTITY
@@ -36,8 +37,7 @@ def one_pose(report: SamplesReport, scene: Scene, number: int) -> tuple[Report, 
     """Raises SatcheckError (`not-drawable`) if the report does not say where bodies stand then."""
     sample = next((each for each in report.samples if each.number == number), None)
     if sample is None or not sample.findings:
-        why = "is not in the report" if sample is None else "has no finding"
-        raise SatcheckError("not-drawable", f"pose {number} {why}: {_instead(report, sample)}")
+        raise SatcheckError("not-drawable", _instead(report, number, sample))
     bodies = (
         replace(body, transform=sample.moved.get(body.id, body.transform))
         for body in as_first(report, scene).bodies
@@ -87,24 +87,22 @@ def all_poses(report: SamplesReport, scene: Scene) -> tuple[Report, Scene, Momen
     names = tuple(f"pose {sample.number}" for sample in shown)
     note = f"in {counted(report.summary.samples, 'pose')}"
     if report.truncated is not None:
-        note = f"in {_those_listed(report)}"
+        note = f"in {those_listed(report)}"
     return _stated(report, findings), scene, Moments(names, placed, of, note)
 
 
-def _instead(report: SamplesReport, sample: SampledPose | None) -> str:
-    """What draws a pose of which the report does not say where bodies stand."""
-    if sample is not None:
-        return (
-            f"--pose '{json.dumps(sample.pose)}' -o pose.html draws it, with the files of the check"
-        )
-    return f"it lists {_those_listed(report)}"
-
-
-def _those_listed(report: SamplesReport) -> str:
-    listed = counted(len(report.samples), "pose")
-    if report.truncated is not None:
-        listed = f"the first {listed} with a finding,"
-    return f"{listed} of {report.summary.samples:,}"
+def _instead(report: SamplesReport, number: int, sample: SampledPose | None) -> str:
+    """Return why a pose is not drawn, and what draws it where the report has its joints: it does
+    not say where bodies stand then."""
+    firsts = {pair.first_overlap: pair.first_pose for pair in report.pairs}
+    pose = firsts.get(number) if sample is None else sample.pose
+    if pose is None:
+        return f"pose {number} is not in the report: it has {those_listed(report)}"
+    why = "comes after those that the report lists" if sample is None else "has no finding"
+    stated = json.dumps(to_builtins(pose))
+    return (
+        f"pose {number} {why}: --pose '{stated}' -o pose.html draws it, with the files of the check"
+    )
 
 
 def _stated(report: SamplesReport, findings: Iterable[Finding]) -> Report:

@@ -178,12 +178,13 @@ class Renderer {
     gl.stencilOpSeparate(gl.FRONT, gl.KEEP, gl.KEEP, gl.INCR_WRAP);
     gl.stencilOpSeparate(gl.BACK, gl.KEEP, gl.KEEP, gl.DECR_WRAP);
     gl.depthFunc(gl.LESS);
-    // A face of the other body that coincides is neither entered nor left: bodies only touch there.
+    // A face of the other body that coincides is neither entered nor left: bodies only touch there. A GPU
+    // may round corners to a 16th of a pixel, which moves each of two faces by a 32nd along x and along y.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.enable(gl.CULL_FACE);
     for (const [hidden, away] of [[gl.BACK, 1], [gl.FRONT, -1]]) {
       gl.cullFace(hidden);
-      gl.polygonOffset(away, 8 * away);
+      gl.polygonOffset(away / 8, 8 * away);
       this.draw(other, colour, { move: otherMove });
     }
     gl.disable(gl.CULL_FACE);

@@ -126,7 +126,7 @@ def test_states_are_put_together_unless_they_differ() -> None:
     scene = load_scene(ARM)
     pose = pose_of_states(scene, ["bowed", "open"])
     assert pose == {"shoulder": (1.5,), "elbow": (1.25,), "grip": (0.1875,)}
-    with pytest.raises(SatcheckError, match="different values"):
+    with pytest.raises(SatcheckError, match="different values: together they are one pose"):
         pose_of_states(scene, ["bowed", "folded"])
 
 

@@ -77,6 +77,7 @@ def test_what_is_no_file(tmp_path: Path, name: str, code: str) -> None:
     with pytest.raises(SatcheckError) as caught:
         read_poses(str(tmp_path / name))
     assert caught.value.code == code
+    assert ("--state takes names of states" in str(caught.value)) == (code == "file-not-found")
 
 
 def test_joints_that_are_not_named_stand_at_0() -> None:
