@@ -166,7 +166,7 @@ def _run(
     code. stays: after this call. Of a file that does not, Ctrl-C keeps what is done. forgives: the
     exit code is as if nothing failed."""
     local = local_results(output, PART) if is_url(output) else nullcontext(Path(output))
-    with local as path, ResultsFile(path) as results, Bar("assets") as bar:
+    with local as path, ResultsFile(path, stays=stays) as results, Bar("assets") as bar:
         if not resume and (existing := results.existing()) is not None:
             reason = "has results: --resume keeps those that still hold; or remove the file"
             named = output if is_url(output) else str(existing)
@@ -319,7 +319,7 @@ def asset_names(inputs: Inputs) -> Assets:
     files = [
         file
         for file in assets.files
-        if os.path.realpath(file) not in rules and not _is_skipped(file, inputs.permitted)
+        if not (rules and os.path.realpath(file) in rules) and not _is_skipped(file, inputs.permitted)
     ]
     if not files:
         raise click.UsageError("no file is named: give a folder or files")
