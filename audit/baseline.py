@@ -36,7 +36,16 @@ from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
 from satcheck.report.values import Interval, Relation
 from satcheck.report.verdict import fails, summarise
-from satcheck.scene.opening import FilesRead, Signature, exists, files_read, followed, note, read_whole, signature
+from satcheck.scene.opening import (
+    FilesRead,
+    Signature,
+    exists,
+    files_read,
+    followed,
+    note,
+    read_whole,
+    signature,
+)
 from satcheck.scene.units import unit_of
 
 # From the mildest to the gravest.

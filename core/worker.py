@@ -16,7 +16,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from itertools import islice
+from itertools import chain, islice
 from queue import SimpleQueue
 from typing import IO, TypeVar
 
@@ -329,8 +329,8 @@ class _Child:
         """The pipe stays open, because the child ends when it closes."""
         with suppress(OSError):  # the child has ended; its exit code gives the reason
             while (requests := self._requests.get()) is not None:
-                pieces = [piece for each in requests for piece in (frame_header(REQUEST, each), each)]
-                view = memoryview(b"".join(pieces))
+                pieces = ((frame_header(REQUEST, each), each) for each in requests)
+                view = memoryview(b"".join(chain.from_iterable(pieces)))
                 while view:
                     view = view[pipe.write(view) :]
 

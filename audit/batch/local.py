@@ -70,11 +70,11 @@ class _Slots:
         """Raises WorkerNotStarted."""
         for number, slot in enumerate(self._slots):
             thread = Thread(target=self._serve, args=(slot, number), daemon=True)
+            self._threads.append(thread)
             try:
                 thread.start()
             except RuntimeError as error:  # the system grants no more threads
                 raise WorkerNotStarted(__name__, str(error)) from error
-            self._threads.append(thread)
 
     def answers(self) -> list[Answer]:
         """All that have come since the last look; when there is none, raises what a slot raises."""

@@ -115,8 +115,8 @@ class ResultsFile:
                     yield head
 
     def append(self, results: Iterable[tuple[World, bytes]]) -> None:
-        """Returns when the lines of these results are on the disk, if they are to stay. If that fails, the file ends
-        with the line before them."""
+        """Returns when the lines of these results are on the disk, if they are to stay. If that
+        fails, the file ends with the line before them."""
         text = bytearray()
         added: dict[World, _Line] = {}
         for world, line in results:

@@ -16,8 +16,8 @@ from satcheck.audit.batch.slot_server import Answer
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.report import Issue
 
-# Gives the answers for worlds, in any order. After a KeyboardInterrupt that is thrown, those that it
-# still has.
+# Gives the answers for worlds, in any order. After a KeyboardInterrupt that is thrown, those that
+# it still has.
 Engine = Callable[[Sequence[World]], Generator[list[Answer]]]
 # The registry of engines: "module:function", which takes the worlds, the options, the limits, and
 # slots or scheduler. An engine is imported when a batch goes through it.

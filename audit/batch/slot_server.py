@@ -113,9 +113,7 @@ def _terms(text: bytes) -> Terms:
     keep_freed_memory()
     gc.set_threshold(_GARBAGE)
     end_at_memory_error(_end)
-    options, limits, wanted = msgspec.convert(
-        json.loads(text), tuple[CheckOptions, Limits, Wanted]
-    )
+    options, limits, wanted = msgspec.convert(json.loads(text), tuple[CheckOptions, Limits, Wanted])
     options = replace(options, settings={**options.settings, "jobs": wanted.threads})
     return Terms(options, terms_of(options), terms_of(options, limits), wanted)
 

@@ -17,7 +17,15 @@ from satcheck.audit.batch.key import digest, inputs_of
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.run import run
-from satcheck.audit.batch.slot_server import Answer, Job, Wanted, answer_in, request_of, serve, text_of
+from satcheck.audit.batch.slot_server import (
+    Answer,
+    Job,
+    Wanted,
+    answer_in,
+    request_of,
+    serve,
+    text_of,
+)
 from satcheck.report.assets import InputFile
 from satcheck.scene import mesh_files
 from satcheck.scene.files.reading_children import ReadingChildren
