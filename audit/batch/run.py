@@ -93,10 +93,14 @@ def _validity(options: CheckOptions, limits: Limits) -> Callable[[Head], bool]:
     """Says of a result whether its files, the options and the version are the same now, and if it
     depends on them also the limits."""
     now = lru_cache(_DIGESTS)(digest)
-    terms = terms_of(options), terms_of(options, limits)
+
+    @lru_cache(maxsize=1)
+    def terms() -> tuple[str, str]:
+        """Only an earlier result needs them: the versions of packages take a while to look up."""
+        return terms_of(options), terms_of(options, limits)
 
     def valid(head: Head) -> bool:
         inputs = inputs_of((file.path for file in head.inputs), now)
-        return head.key in [key_of(head.files, each, inputs, options.folders) for each in terms]
+        return head.key in [key_of(head.files, each, inputs, options.folders) for each in terms()]
 
     return valid

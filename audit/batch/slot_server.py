@@ -24,7 +24,7 @@ from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
 from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result
-from satcheck.report.json import line_of
+from satcheck.report.json import line_of, read_line
 from satcheck.report.report import Issue
 from satcheck.scene.mesh_files import KnownMeshes
 from satcheck.scene.opening import FilesRead, files_read, note
@@ -86,13 +86,16 @@ class Terms(NamedTuple):
 
 
 def text_of(value: object) -> bytes:
-    """In ASCII, because msgspec writes no name of a file that is not UTF-8."""
+    """As one line of JSON. msgspec writes no infinity, and no name of a file that is not UTF-8."""
     return json.dumps(msgspec.to_builtins(value)).encode()
 
 
 def request_of(job: Job, terms: bytes) -> bytes:
     """terms: the text of the options, the limits and the wishes, which has no line end."""
-    return terms + b"\n" + text_of(job)
+    try:
+        return terms + b"\n" + msgspec.json.encode(job)
+    except UnicodeEncodeError:
+        return terms + b"\n" + text_of(job)
 
 
 def answer_in(reply: bytes, world: World) -> Answer:
@@ -102,7 +105,7 @@ def answer_in(reply: bytes, world: World) -> Answer:
 def serve(request: bytes) -> bytes:
     shared, _, text = request.partition(b"\n")
     terms = _terms(shared)
-    job = msgspec.convert(json.loads(text), Job)
+    job = read_line(text, Job)
     with careful(None if job.left_out is None else Care(job.left_out, _tell)):
         return msgspec.msgpack.encode(_result(job, terms))
 
