@@ -105,11 +105,13 @@ class Slot:
         replies = self._worker.replies(
             requests(), seconds=self._limits.seconds, ahead=lambda: pace.size
         )
-        began = time.monotonic()
-        for number, reply in enumerate(replies, 1):
+        began, answered = time.monotonic(), 0
+        for reply in replies:
             yield answer_in(reply, sent.popleft())
-            if number >= pace.size:
-                pace.measure(number, time.monotonic() - began, _SECONDS_AHEAD)
+            answered += 1
+            if answered >= pace.size:
+                pace.measure(answered, time.monotonic() - began, _SECONDS_AHEAD)
+                began, answered = time.monotonic(), 0
 
     def _alone(self, world: World) -> Answer:
         left_out: dict[str, Loss] = {}

@@ -75,7 +75,7 @@ def slot() -> Iterator[Callable[[Limits], Slot]]:
 
     yield make
     for each in made:
-        each.stop()
+        each.close()
 
 
 def scene(name: str, *bodies: tuple[str, str]) -> World:
