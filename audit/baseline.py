@@ -36,7 +36,16 @@ from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
 from satcheck.report.values import Interval, Relation
 from satcheck.report.verdict import fails, summarise
-from satcheck.scene.opening import Signature, exists, followed, note, read_whole, signature
+from satcheck.scene.opening import (
+    FilesRead,
+    Signature,
+    exists,
+    files_read,
+    followed,
+    note,
+    read_whole,
+    signature,
+)
 from satcheck.scene.units import unit_of
 
 # From the mildest to the gravest.
@@ -353,12 +362,15 @@ def read_baseline(path: Path) -> Baseline:
 def current_baseline(path: Path) -> Baseline:
     """The same for many assets: the file is read once, and again when it has changed."""
     note(path)
-    return _read_once(path, signature(str(path)))
+    known, files = _read_once(path, signature(str(path)))
+    files.note_again()
+    return known
 
 
 @lru_cache(maxsize=1)
-def _read_once(path: Path, _: Signature) -> Baseline:
-    return read_baseline(path)
+def _read_once(path: Path, _: Signature) -> tuple[Baseline, FilesRead]:
+    with files_read() as files:
+        return read_baseline(path), files
 
 
 def asset_key(asset: str, baseline: Path) -> str:

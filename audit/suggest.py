@@ -228,6 +228,8 @@ def _suggestion(
         bounds and (scale * bounds[0], scale * bounds[1])
         for bounds in ((finding.thickness_bounds, finding.depth_bounds) if finding else (None,) * 2)
     )
+    swept = finding.motion.relation if finding and finding.motion else "separated"
+    meets = any(each in ("touching", *OVERLAPS) for each in (placed, swept))
     why: Why
     if adjacent:
         why = "adjacent"
@@ -237,9 +239,7 @@ def _suggestion(
         if thickness is None and depth is None:
             return Unchecked(a, b, adjacent, links, NO_FIGURE)
         why = "contact"
-    elif (
-        tally and tally.settled and placed not in ("touching", *OVERLAPS) and not _may_hit(finding)
-    ):
+    elif tally and tally.settled and not (finding and finding.undecided) and not meets:
         why = "never"
     else:
         return None
@@ -264,13 +264,6 @@ def limit(bounds: Interval | None) -> float | None:
     most = bounds[1] * MARGIN
     step = 10.0 ** (floor(log10(most)) - 2)
     return min(float(f"{ceil(most / step) * step:.4g}"), LARGEST_LENGTH)
-
-
-def _may_hit(finding: Finding | None) -> bool:
-    if finding is None:
-        return False
-    meets = finding.motion and finding.motion.relation in ("penetrating", "touching")
-    return bool(meets) or finding.undecided is not None
 
 
 def _open_question(finding: Finding | None, tally: SampledPair | None) -> str | None:

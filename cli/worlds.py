@@ -7,7 +7,7 @@ import shlex
 import sys
 from collections import deque
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -22,7 +22,7 @@ from satcheck.audit.batch.remote import is_url, local_results
 from satcheck.audit.batch.results import PART, ResultsFile
 from satcheck.audit.batch.run import Engine, Tally, run
 from satcheck.audit.batch.slot_server import Answer, Wanted
-from satcheck.audit.batch.stored import INTERRUPTED, Stored, StoredResults
+from satcheck.audit.batch.stored import INTERRUPTED, NewResults, Stored, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli import exit_codes
 from satcheck.cli.format_option import Target
@@ -99,7 +99,10 @@ def check_worlds(
             return seen.exit_code(exit_zero=to.exit_zero)
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
-        deliver = partial(_deliver, document, Path(path), issues, to, terms.allow_outside)
+        read: AbstractContextManager[StoredResults | NewResults]
+        new = NewResults(Path(path), tally.done)
+        read = StoredResults([Path(path)]) if stays else nullcontext(new)
+        deliver = partial(_deliver, document, read, issues, to, terms.allow_outside)
         compares, is_broken_off = compares and not left, bool(left)
         try:
             seen = deliver(compares, undrawn=is_broken_off)
@@ -115,7 +118,7 @@ def check_worlds(
 
 def _deliver(
     document: Document,
-    results: Path,
+    read: AbstractContextManager[StoredResults | NewResults],
     issues: tuple[Issue, ...],
     to: Delivery,
     allow_outside: bool,
@@ -128,7 +131,7 @@ def _deliver(
     from satcheck.cli.formats.assets import overview
     from satcheck.cli.worst_findings import Drawing
 
-    with StoredResults([results]) as stored:
+    with read as stored:
         found = (each.asset for each in stored)
         seen = overview(found, issues, top=to.top, compares=compares)
         drawing = Drawing(
@@ -166,7 +169,7 @@ def _run(
     known of them where no other document shows it. stays: after this call. Of a file that does not,
     Ctrl-C keeps what is done. is_alone: no other document is made of it."""
     local = local_results(output, PART) if is_url(output) else nullcontext(Path(output))
-    with local as path, ResultsFile(path) as results, Bar("assets") as bar:
+    with local as path, ResultsFile(path, stays=stays) as results, Bar("assets") as bar:
         if not resume and (existing := results.existing()) is not None:
             reason = "has results: --resume keeps those that still hold; or remove the file"
             named = output if is_url(output) else str(existing)
@@ -257,7 +260,7 @@ def _interrupted(not_checked: int, total: int) -> tuple[Issue, ...]:
 def deliver_assets(
     document: Document,
     seen: Overview,
-    stored: Collection[Stored] | StoredResults,
+    stored: Collection[Stored] | StoredResults | NewResults,
     to: Delivery,
     drawing: Drawing,
     *,
@@ -321,7 +324,8 @@ def asset_names(inputs: Inputs) -> Assets:
     files = [
         file
         for file in assets.files
-        if os.path.realpath(file) not in rules and not _is_skipped(file, inputs.permitted)
+        if not (rules and os.path.realpath(file) in rules)
+        and not _is_skipped(file, inputs.permitted)
     ]
     if not files:
         raise click.UsageError("no file is named: give a folder or files")

@@ -13,8 +13,11 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
+from itertools import chain, islice
+from queue import SimpleQueue
 from typing import IO, TypeVar
 
 from satcheck.core.worker_errors import (
@@ -59,6 +62,9 @@ _STDERR_TAIL_BYTES = 1 << 13  # of a child's standard error, kept for the error 
 _STDERR_TAIL_LINES = 6
 _POLL_SECONDS = 0.1  # interval of checks for Ctrl-C, which a blocked wait would not notice
 _REAP_SECONDS = 5.0  # time for a child that closed its replies to end
+# While a child answers many requests, the pauses between two readings of its replies: short enough
+# that few replies fit into them, and the pipe holds them.
+_REST_SECONDS = 0.01
 _WINDOWS_NO_MEMORY_EXIT_CODE = 0xC0000017  # STATUS_NO_MEMORY
 
 _children: set[_Child] = set()
@@ -119,24 +125,62 @@ class Worker:
         Raises WorkerNotStarted, WorkerStopped, WorkerTimeout, WorkerOutOfMemory or WorkerCrashed.
         Raises WorkerFailed if serve() itself raises; the child survives that.
         """
+        (reply,) = self.replies([request], seconds=seconds)
+        return reply
+
+    def replies(
+        self,
+        requests: Iterable[bytes],
+        *,
+        seconds: float,
+        ahead: Callable[[], int] = lambda: 1,
+    ) -> Iterator[bytes]:
+        """The replies to these requests, in their order, as they come. seconds: for each, after the
+        reply before it. ahead: the most requests that the child may have at a time, so that it need
+        not wait for this process.
+
+        Raises what `ask` raises: the first request without a reply is to blame, and the child has
+        not begun those after it. What the child had answered before it was lost or stopped is given
+        first. The child ends if it still has requests when the iteration is left.
+        """
+        left = iter(requests)
         with self._turn:
-            deadline = time.monotonic() + seconds
             self.last_words = ""
-            if self._child is None:
-                self._child = _Child(self._module, self._megabytes, self._grouped, self._folder)
-                self.answered = 0
-            if self._stopped:  # stop() may have looked for a child before there was this one
-                self._end()
-                raise WorkerStopped(self._module)
+            due = 0
             try:
-                frame = self._child.answer(request, deadline)
-            except BaseException:  # Ctrl-C
-                self._end()
-                raise
-            if frame is None:
-                raise self._lost(seconds)
-            self.answered += 1
-            return self._reply(*frame)
+                while True:
+                    if due <= ahead() // 2 and (sent := list(islice(left, ahead() - due))):
+                        due += len(sent)
+                        self._started().send(sent, seconds, due)
+                    if not due:
+                        return
+                    assert self._child is not None
+                    frame = self._child.reply(seconds)
+                    if frame is None:
+                        raise self._lost(seconds)
+                    due -= 1
+                    self.answered += 1
+                    yield self._payload(*frame)
+            finally:
+                if due:
+                    self._end()
+
+    def _started(self) -> _Child:
+        if self._child is None:
+            self._child = _Child(self._module, self._megabytes, self._grouped, self._folder)
+            self.answered = 0
+        if self._stopped:  # stop() may have looked for a child before there was this one
+            raise WorkerStopped(self._module)
+        return self._child
+
+    def _payload(self, status: bytes, payload: bytes) -> bytes:
+        if status == REPLY:
+            return payload
+        if status == OUT_OF_MEMORY:
+            self._end()
+            raise WorkerOutOfMemory(self._module, self._megabytes)
+        exception_type, _, exception_message = payload.decode("utf-8", "replace").partition("\n")
+        raise WorkerFailed(self._module, exception_type, exception_message)
 
     def close(self) -> None:
         with self._turn:
@@ -162,15 +206,6 @@ class Worker:
             child.end()
             self.last_words = bytes(child.stderr_tail).decode("utf-8", "replace")
         return child
-
-    def _reply(self, status: bytes, payload: bytes) -> bytes:
-        if status == REPLY:
-            return payload
-        if status == OUT_OF_MEMORY:
-            self._end()
-            raise WorkerOutOfMemory(self._module, self._megabytes)
-        exception_type, _, exception_message = payload.decode("utf-8", "replace").partition("\n")
-        raise WorkerFailed(self._module, exception_type, exception_message)
 
     def _lost(self, seconds: float) -> WorkerError:
         """The reason why there is no reply, after the child has ended."""
@@ -218,34 +253,44 @@ class _Child:
         self.reply_too_large = False
         self.stderr_tail = bytearray()
         self.exit_code = 0
-        self._reply = bytearray()
+        self._replies: deque[bytes] = deque()
         self._reply_limit = megabytes * _BYTES_PER_MEGABYTE + HEADER.size
+        self._due = 0  # replies
+        self._waits_since = 0.0
         self._answered = threading.Event()
+        self._ending = threading.Event()
         self._closed = False  # the child closed its replies
+        self._requests: SimpleQueue[list[bytes] | None] = SimpleQueue()
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         assert self._process.stderr is not None
-        self._requests = self._process.stdin
         self._threads: list[threading.Thread] = []
         _children.add(self)
         self._threads.append(self._start(self._receive, self._process.stdout))
         self._threads.append(self._start(self._listen, self._process.stderr))
+        self._threads.append(self._start(self._send, self._process.stdin))
 
-    def answer(self, request: bytes, deadline: float) -> tuple[bytes, bytes] | None:
-        """(status, payload) of its answer; None: there is no answer, or not in time."""
-        self._reply.clear()
-        self._answered.clear()
-        if self._closed:
-            return None
-        work = parcel(request, deadline - time.monotonic())
-        self._threads[2:] = [self._start(self._send, work)]
-        while not self._answered.is_set():
-            remaining = deadline - time.monotonic()
-            if remaining <= 0.0:
-                self.timed_out = True
+    def send(self, requests: list[bytes], seconds: float, due: int) -> None:
+        """seconds: for each. due: replies, with those to these."""
+        if due == len(requests):
+            self._waits_since = time.monotonic()
+        self._due = due
+        self._requests.put([parcel(each, seconds) for each in requests])
+
+    def reply(self, seconds: float) -> tuple[bytes, bytes] | None:
+        """(status, payload) of the next reply; None: there is none, or not in time."""
+        while True:
+            # Before the look: the last reply comes before the end.
+            was_closed = self._closed or self.reply_too_large
+            if self._replies:
+                self._due -= 1
+                return parse_frame(self._replies.popleft())
+            remaining = self._waits_since + seconds - time.monotonic()
+            self.timed_out = remaining <= 0.0 and not was_closed
+            if was_closed or self.timed_out:
                 return None
             self._answered.wait(min(remaining, _POLL_SECONDS))
-        return None if self.reply_too_large else parse_frame(bytes(self._reply))
+            self._answered.clear()
 
     def kill(self) -> None:
         if not self._grouped:
@@ -264,6 +309,8 @@ class _Child:
                 with suppress(subprocess.TimeoutExpired):
                     self._process.wait(_REAP_SECONDS)
             self.kill()
+            self._ending.set()
+            self._requests.put(None)
             self.exit_code = self._process.wait()
             _children.discard(self)
             for thread in self._threads:
@@ -278,25 +325,29 @@ class _Child:
             raise WorkerNotStarted(self._module, str(error)) from error
         return thread
 
-    def _send(self, request: bytes) -> None:
-        try:
-            for piece in (frame_header(REQUEST, request), request):
-                view = memoryview(piece)
+    def _send(self, pipe: IO[bytes]) -> None:
+        """The pipe stays open, because the child ends when it closes."""
+        with suppress(OSError):  # the child has ended; its exit code gives the reason
+            while (requests := self._requests.get()) is not None:
+                pieces = ((frame_header(REQUEST, each), each) for each in requests)
+                view = memoryview(b"".join(chain.from_iterable(pieces)))
                 while view:
-                    view = view[self._requests.write(view) :]
-        except OSError:
-            return  # the child has ended; its exit code gives the reason
-        # The pipe stays open, because the child ends when it closes.
+                    view = view[pipe.write(view) :]
 
     def _receive(self, pipe: IO[bytes]) -> None:
+        data = bytearray()
         while chunk := pipe.read(CHUNK_BYTES):
-            self._reply += chunk
-            length = frame_length(self._reply)
-            if len(self._reply) > self._reply_limit:
+            data += chunk
+            while (length := frame_length(data)) is not None and len(data) >= length:
+                self._replies.append(bytes(memoryview(data)[:length]))
+                del data[:length]
+                self._waits_since = time.monotonic()
+                self._answered.set()
+            if length is not None and length > self._reply_limit:
                 self.reply_too_large = True
                 break
-            if length is not None and len(self._reply) >= length:
-                self._answered.set()
+            if not data and self._due > len(self._replies):
+                self._ending.wait(_REST_SECONDS)
         self._closed = not self.reply_too_large
         self._answered.set()
 

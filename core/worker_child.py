@@ -88,28 +88,18 @@ def _serve(module: str, request: bytes) -> tuple[bytes, bytes]:
 
 
 def _read_requests(requests: SimpleQueue[bytes]) -> None:
+    """Several may wait: one reading of the pipe takes them all."""
     try:
-        while True:
-            header = _read_exactly(HEADER.size)
-            length = frame_length(header)
-            assert length is not None
-            frame = parse_frame(header + _read_exactly(length - HEADER.size))
-            if frame is None:
-                _end_as_orphan()
-            requests.put(frame[1])
+        with open(0, "rb", buffering=CHUNK_BYTES, closefd=False) as pipe:
+            while length := frame_length(header := pipe.read(HEADER.size)):
+                frame = parse_frame(header + pipe.read(length - HEADER.size))
+                if frame is None:
+                    break
+                requests.put(frame[1])
+        _end_as_orphan()
     except MemoryError:  # the main thread would wait for the request
         os.write(2, _NO_MEMORY)
         os._exit(1)
-
-
-def _read_exactly(length: int) -> bytes:
-    data = bytearray()
-    while len(data) < length:
-        chunk = os.read(0, min(length - len(data), CHUNK_BYTES))
-        if not chunk:
-            _end_as_orphan()
-        data += chunk
-    return bytes(data)
 
 
 def _end_as_orphan() -> NoReturn:

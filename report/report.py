@@ -201,9 +201,11 @@ class Finding(Value, frozen=True, kw_only=True):
     be a little longer, so that the moved mesh is verified free. motion: the sweep; None: the bodies
     do not move relative to each other, or their boxes stay apart. relation, severity and undecided
     include it; figures are as placed. certificate: what `satcheck verify` checks; None: not
-    requested, or nothing is proven, and the last stage of the plan says why. reason_code: of an
-    undecided relation, where the input is the cause. baseline_state: for a failing finding, if the
-    check has a baseline, and for an undecided one that the baseline accepts.
+    requested, or nothing is proven, and the last stage of the plan says why. reason: why the
+    result is not exact; of a finding that is worse than the baseline, first what the baseline has.
+    reason_code: of an undecided relation, where the input is the cause. baseline_state: for a
+    failing finding, if the check has a baseline, and for an undecided one that the baseline
+    accepts.
     """
 
     id: str

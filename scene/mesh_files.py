@@ -52,6 +52,9 @@ from satcheck.scene.words import meant
 if TYPE_CHECKING:
     from satcheck.scene.planar.outline import Shape
 
+# Files that are remembered by name: so many scenes may lie between two that share one.
+_MOST_SEEN = 100_000
+
 
 class MeshFiles:
     """Reads each file once, even if several paths lead to it and many bodies use it. known: files
@@ -247,6 +250,7 @@ class KnownMeshes:
         self._most = triangles
         self._held = 0
         self._known: OrderedDict[Hashable, _Known] = OrderedDict()
+        self._seen: set[int] = set()
         self._children: dict[int, ReadingChildren] = {}
         self._lock = Lock()
 
@@ -258,7 +262,13 @@ class KnownMeshes:
             return self._children[megabytes]
 
     def recall(self, key: Hashable, load: Callable[[], Document]) -> Document:
-        """The result of `load`, or of an earlier one with this key. Raises what it raises."""
+        """The result of `load`, or of an earlier one with this key. Raises what it raises. What is
+        asked for only once is not kept, as few files are in many scenes."""
+        if hash(key) not in self._seen:
+            if len(self._seen) >= _MOST_SEEN:
+                self._seen.clear()
+            self._seen.add(hash(key))
+            return load()
         known = self._take(key)
         if known is not None and known.files.are_certain():
             known.files.note_again()

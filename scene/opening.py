@@ -214,6 +214,8 @@ class FilesRead:
     def note_again(self) -> None:
         for name in self:
             note(name)
+        for name, digest in self._digests.items():
+            _note_digest(name, digest)
 
 
 _listening: list[FilesRead] = []
@@ -498,6 +500,8 @@ def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
     regular file, is too large, or cannot be read."""
     try:
         _, data = _read(location, size_of(location), most)
+        if _listening:
+            _note_digest(location, hashlib.sha256(data).hexdigest())
         return without_padding(data)
     except Refused as error:
         raise Refused(error.code, error.message, file=path) from None

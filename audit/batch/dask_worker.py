@@ -13,14 +13,11 @@ from distributed import Worker, WorkerPlugin, get_worker
 from msgspec import Struct
 
 from satcheck._version import __version__
-from satcheck.audit.batch.options import CheckOptions, Limits, Pace, World
+from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.slot import Slot
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.core.errors import SatcheckError
 
-# Work of a slot between two questions to the worker, as in the local engine.
-_CHUNK_SECONDS = 0.2
-_LARGEST_CHUNK = 64
 # Slots end after this time without a task: their batch was killed before it could end them.
 _IDLE_SECONDS = 60.0
 # The fastest level of zlib.
@@ -87,12 +84,7 @@ class Slots(WorkerPlugin):
 
     def _checked(self, slot: Slot, worlds: tuple[World, ...]) -> Chunk:
         began = time.monotonic()
-        pace = Pace(_LARGEST_CHUNK)
-        answers: list[Answer] = []
-        while not self._ended and (some := worlds[len(answers) : len(answers) + pace.size]):
-            start = time.monotonic()
-            answers += (new := list(slot.check(some)))
-            pace.measure(len(new), time.monotonic() - start, _CHUNK_SECONDS)
+        answers = list(slot.check(worlds))
         return _chunk(answers, time.monotonic() - began)
 
     def _refuse_other_version(self) -> None:
@@ -118,7 +110,7 @@ class Slots(WorkerPlugin):
         with self._lock:
             self._busy.remove(slot)
             if self._ended:
-                slot.stop()
+                slot.close()
                 return
             self._idle.append(slot)
             self._timer = Timer(_IDLE_SECONDS, self._stop_idle)
@@ -129,7 +121,7 @@ class Slots(WorkerPlugin):
         with self._lock:
             idle, self._idle = self._idle, []
         for slot in idle:
-            slot.stop()
+            slot.close()
 
 
 def check_chunk(batch: str, worlds: bytes) -> Chunk:

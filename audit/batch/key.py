@@ -52,17 +52,20 @@ def digest(name: str) -> str | None:
 
 
 class Digests:
-    """The digests of files that did not change since they were made."""
+    """The digests of files that did not change since they were made, of those that no reading of
+    the file gives."""
 
     def __init__(self) -> None:
         self._known: OrderedDict[str, tuple[Signature, str | None]] = OrderedDict()
 
     def digest(self, files: FilesRead, name: str) -> str | None:
         """files: the name is one of them."""
+        if (made := files.digest(name)) is not None:
+            return made
         at = files.signature(name)
         known = self._known.pop(name, None)
         if known is None or known[0] != at:
-            known = at, files.digest(name) or digest(name)
+            known = at, digest(name)
         if files.is_settled(name):
             self._known[name] = known
             if len(self._known) > _MOST_DIGESTS:

@@ -49,14 +49,14 @@ class Limits(Struct, frozen=True):
 
 
 class Pace:
-    """size: worlds of the next chunk. It begins at 1, as the first world may take long, and at most
-    doubles with each chunk that is measured."""
+    """size: worlds that are sent together. It begins at 1, as the first world may take long, and at
+    most doubles with each measure."""
 
     def __init__(self, largest: int) -> None:
         self._largest = largest
         self.size = 1
 
     def measure(self, worlds: int, took: float, wanted: float) -> None:
-        """took, wanted: seconds, for these worlds and for the next chunk."""
+        """took, wanted: seconds, for these worlds and for the next ones."""
         fitting = round(worlds * wanted / max(took, _SHORTEST_SECONDS))
         self.size = max(1, min(2 * self.size, fitting, self._largest))

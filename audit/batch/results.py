@@ -52,9 +52,11 @@ class ResultsFile:
     `cannot-write`.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, stays: bool = True) -> None:
+        """stays: it is for a later run, too, and has to outlive a failure of the machine."""
         self.path = resolved(path)
         self.part = part_of(self.path)
+        self._stays = stays
         self._lock = FileLock(f"{self.path}.lock")
         self._lines: dict[World, _Line] = {}
         self._end = 0
@@ -113,8 +115,8 @@ class ResultsFile:
                     yield head
 
     def append(self, results: Iterable[tuple[World, bytes]]) -> None:
-        """Returns when the lines of these results are on the disk. If that fails, the file ends
-        with the line before them."""
+        """Returns when the lines of these results are on the disk, if they are to stay. If that
+        fails, the file ends with the line before them."""
         text = bytearray()
         added: dict[World, _Line] = {}
         for world, line in results:
@@ -126,7 +128,8 @@ class ResultsFile:
             view = memoryview(text)
             while view:
                 view = view[self._added.write(view) :]
-            fsync(self._added.fileno())
+            if self._stays:
+                fsync(self._added.fileno())
         except OSError as error:
             self._cut()
             raise self._cannot_write(error) from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Generator, Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from functools import lru_cache
 
 from msgspec import Struct, field
@@ -16,7 +16,8 @@ from satcheck.audit.batch.slot_server import Answer
 from satcheck.report.assets import AssetVerdict
 from satcheck.report.report import Issue
 
-# Gives the answers for worlds, in any order.
+# Gives the answers for worlds, in any order. After a KeyboardInterrupt that is thrown, those that
+# it still has.
 Engine = Callable[[Sequence[World]], Generator[list[Answer]]]
 # The registry of engines: "module:function", which takes the worlds, the options, the limits, and
 # slots or scheduler. An engine is imported when a batch goes through it.
@@ -65,12 +66,25 @@ def run(
             tally.kept += 1
             tally.note(head.verdict)
     progress(tally)
+
+    def take(answers: list[Answer]) -> None:
+        """Leave of the list what is not noted yet."""
+        results.append((each.world, each.line) for each in answers)
+        while answers:
+            answer = answers.pop()
+            tally.note(answer.verdict, answer.unused)
+        progress(tally)
+
     with closing(engine(tuple(waiting))) as coming:
-        for answers in coming:
-            results.append((each.world, each.line) for each in answers)
-            for each in answers:
-                tally.note(each.verdict, each.unused)
-            progress(tally)
+        answers: list[Answer] = []
+        try:
+            for answers in coming:
+                take(answers)
+        except KeyboardInterrupt as stop:
+            with suppress(KeyboardInterrupt, StopIteration):
+                answers += coming.throw(stop)
+            take(answers)
+            raise
     results.finish(worlds)
     return tally
 
@@ -79,10 +93,14 @@ def _validity(options: CheckOptions, limits: Limits) -> Callable[[Head], bool]:
     """Says of a result whether its files, the options and the version are the same now, and if it
     depends on them also the limits."""
     now = lru_cache(_DIGESTS)(digest)
-    terms = terms_of(options), terms_of(options, limits)
+
+    @lru_cache(maxsize=1)
+    def terms() -> tuple[str, str]:
+        """Only an earlier result needs them: the versions of packages take a while to look up."""
+        return terms_of(options), terms_of(options, limits)
 
     def valid(head: Head) -> bool:
         inputs = inputs_of((file.path for file in head.inputs), now)
-        return head.key in [key_of(head.files, each, inputs, options.folders) for each in terms]
+        return head.key in [key_of(head.files, each, inputs, options.folders) for each in terms()]
 
     return valid

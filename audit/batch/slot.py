@@ -1,28 +1,31 @@
 """A slot: a process that checks worlds, and is replaced when it dies.
 
-The worlds of a lost process are checked again, each alone and carefully, so that the step which
+The world at which a process was lost is checked again, alone and carefully, so that the step which
 ends the process is known. The next check leaves that step out: the other files and pairs of the
-world have their answers.
+world have their answers. The process had not begun the worlds behind it, which are sent again.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from itertools import chain
 from tempfile import TemporaryDirectory
 
 from satcheck.audit.batch.check_world import lost_asset
-from satcheck.audit.batch.options import CheckOptions, Limits, World
+from satcheck.audit.batch.options import CheckOptions, Limits, Pace, World
 from satcheck.audit.batch.remote import is_remote
 from satcheck.audit.batch.slot_server import (
     STEP_LINE,
     Answer,
-    Chunk,
+    Job,
     Wanted,
-    answers_in,
+    answer_in,
     request_of,
     result_of,
+    text_of,
 )
 from satcheck.core.risky_steps import Loss
 from satcheck.core.worker import Worker
@@ -42,11 +45,14 @@ RESULTS = Wanted()
 _MOST_LEFT_OUT = 3
 # A step is to blame for the end at the time limit only if it took more than this share of it.
 _SHARE_OF_TIME = 0.5
+# Work that a process has before it: short, as another slot may be free for it.
+_SECONDS_AHEAD = 0.2
+_MOST_AHEAD = 64
 
 
 class Slot:
-    """Checks one chunk of worlds after another. Stop it after use. folder: to which the names of
-    files are relative; None: the working directory. wanted: of each check."""
+    """Checks worlds one after another. Close it after use. folder: to which the names of files are
+    relative; None: the working directory. wanted: of each check."""
 
     def __init__(
         self,
@@ -55,34 +61,57 @@ class Slot:
         folder: str | None = None,
         wanted: Wanted = RESULTS,
     ) -> None:
-        self._options = options
         self._limits = limits
-        self._wanted = wanted
+        self._terms = text_of((options, limits, wanted))
         self._copies: TemporaryDirectory[str] | None = None
         self._worker = Worker(_SERVER, megabytes=limits.megabytes, grouped=True, folder=folder)
 
     def stop(self) -> None:
         """Ends its process, even during a check; no check may follow."""
         self._worker.stop()
+
+    def close(self) -> None:
+        """Stops it, and waits until no check is under way."""
+        self.stop()
         self._worker.close()
         if self._copies is not None:
             self._copies.cleanup()
 
-    def check(self, worlds: Sequence[World]) -> Iterator[Answer]:
-        """An answer for each world, in this order, unless the slot is stopped. Raises
-        WorkerNotStarted."""
+    def check(self, worlds: Iterable[World]) -> Iterator[Answer]:
+        """An answer for each world, in this order, as they come; if the slot is stopped, those that
+        its process has given. Raises WorkerNotStarted."""
+        waiting = iter(worlds)
         with suppress(WorkerStopped):
-            yield from self._together(worlds)
+            while True:
+                sent: deque[World] = deque()
+                try:
+                    yield from self._plainly(waiting, sent)
+                    return
+                except (WorkerNotStarted, WorkerStopped):
+                    raise
+                except WorkerError:
+                    yield self._alone(sent.popleft())
+                waiting = chain(sent, waiting)
 
-    def _together(self, worlds: Sequence[World]) -> Iterator[Answer]:
-        try:
-            yield from self._ask(worlds)
-            return
-        except (WorkerNotStarted, WorkerStopped):
-            raise
-        except WorkerError:
-            pass
-        yield from map(self._alone, worlds)
+    def _plainly(self, worlds: Iterable[World], sent: deque[World]) -> Iterator[Answer]:
+        """sent: gets the worlds that the process has. Raises WorkerError."""
+
+        def requests() -> Iterator[bytes]:
+            for world in worlds:
+                sent.append(world)
+                yield self._request(world)
+
+        pace = Pace(_MOST_AHEAD)
+        replies = self._worker.replies(
+            requests(), seconds=self._limits.seconds, ahead=lambda: pace.size
+        )
+        began, answered = time.monotonic(), 0
+        for reply in replies:
+            yield answer_in(reply, sent.popleft())
+            answered += 1
+            if answered >= pace.size:
+                pace.measure(answered, time.monotonic() - began, _SECONDS_AHEAD)
+                began, answered = time.monotonic(), 0
 
     def _alone(self, world: World) -> Answer:
         left_out: dict[str, Loss] = {}
@@ -101,20 +130,15 @@ class Slot:
     def _carefully(self, world: World, left_out: Mapping[str, Loss]) -> Answer:
         """An earlier world may have used up the memory of the process, or damaged it: a fresh one
         decides."""
+        request = self._request(world, left_out)
         if self._worker.answered:
-            try:
-                return self._ask([world], left_out)[0]
-            except (WorkerCrashed, WorkerOutOfMemory):
-                pass
-        return self._ask([world], left_out)[0]
+            with suppress(WorkerCrashed, WorkerOutOfMemory):
+                return answer_in(self._worker.ask(request, seconds=self._limits.seconds), world)
+        return answer_in(self._worker.ask(request, seconds=self._limits.seconds), world)
 
-    def _ask(
-        self, worlds: Sequence[World], left_out: Mapping[str, Loss] | None = None
-    ) -> list[Answer]:
-        copies = self._folder_of_copies() if any(map(is_remote, worlds)) else None
-        chunk = Chunk(tuple(worlds), self._options, self._limits, self._wanted, left_out, copies)
-        request = request_of(chunk)
-        return answers_in(self._worker.ask(request, seconds=self._limits.seconds), worlds)
+    def _request(self, world: World, left_out: Mapping[str, Loss] | None = None) -> bytes:
+        copies = self._folder_of_copies() if is_remote(world) else None
+        return request_of(Job(world, left_out, copies), self._terms)
 
     def _folder_of_copies(self) -> str:
         """This process removes it, as the other one may be killed."""

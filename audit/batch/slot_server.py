@@ -1,4 +1,4 @@
-"""The child of a slot: checks the worlds of a chunk one after another (`core.worker`)."""
+"""The child of a slot: checks one world for each request (`core.worker`)."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import json
 import os
 import re
 import time
-from collections.abc import Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping
+from functools import lru_cache, partial
 from pathlib import Path
-from typing import NoReturn
+from typing import NamedTuple, NoReturn
 
 import msgspec
 from msgspec import Struct
@@ -19,12 +19,12 @@ from msgspec.structs import replace
 from satcheck.audit.batch.check_world import check_world, unreadable_asset, without_unused_rules
 from satcheck.audit.batch.key import Digests, inputs_of, key_of, terms_of
 from satcheck.audit.batch.options import CheckOptions, Limits, World
-from satcheck.audit.batch.remote import Copies, is_remote, make_room
+from satcheck.audit.batch.remote import Copies, make_room
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
 from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result
-from satcheck.report.json import line_of
+from satcheck.report.json import line_of, read_line
 from satcheck.report.report import Issue
 from satcheck.scene.mesh_files import KnownMeshes
 from satcheck.scene.opening import FilesRead, files_read, note
@@ -54,14 +54,11 @@ class Wanted(Struct, frozen=True):
     threads: int = 1
 
 
-class Chunk(Struct, frozen=True):
+class Job(Struct, frozen=True):
     """left_out: None: a plain check. Else a careful one, without these steps. copies: a folder for
-    copies of remote files, the same for each chunk of a slot."""
+    copies of remote files, the same for each world of a slot."""
 
-    worlds: tuple[World, ...]
-    options: CheckOptions
-    limits: Limits
-    wanted: Wanted = Wanted()
+    world: World
     left_out: Mapping[str, Loss] | None = None
     copies: str | None = None
 
@@ -79,31 +76,49 @@ class Answer(Struct, frozen=True):
 _Made = tuple[AssetVerdict, bytes, tuple[Issue, ...]]
 
 
-def request_of(chunk: Chunk) -> bytes:
-    """In ASCII, because msgspec writes no name of a file that is not UTF-8."""
-    return json.dumps(msgspec.to_builtins(chunk)).encode()
+class Terms(NamedTuple):
+    """What all worlds of a slot share. digest: of `terms_of`; of_limits: with the limits."""
+
+    options: CheckOptions
+    digest: str
+    of_limits: str
+    wanted: Wanted
 
 
-def answers_in(reply: bytes, worlds: Sequence[World]) -> list[Answer]:
-    """Yield the answers of these worlds, in this order."""
-    made = msgspec.msgpack.decode(reply, type=list[_Made])
-    return [Answer(world, *each) for world, each in zip(worlds, made, strict=True)]
+def text_of(value: object) -> bytes:
+    """As one line of JSON. msgspec writes no infinity, and no name of a file that is not UTF-8."""
+    return json.dumps(msgspec.to_builtins(value)).encode()
+
+
+def request_of(job: Job, terms: bytes) -> bytes:
+    """terms: the text of the options, the limits and the wishes, which has no line end."""
+    try:
+        return terms + b"\n" + msgspec.json.encode(job)
+    except UnicodeEncodeError:
+        return terms + b"\n" + text_of(job)
+
+
+def answer_in(reply: bytes, world: World) -> Answer:
+    return Answer(world, *msgspec.msgpack.decode(reply, type=_Made))
 
 
 def serve(request: bytes) -> bytes:
+    shared, _, text = request.partition(b"\n")
+    terms = _terms(shared)
+    job = read_line(text, Job)
+    with careful(None if job.left_out is None else Care(job.left_out, _tell)):
+        return msgspec.msgpack.encode(_result(job, terms))
+
+
+@lru_cache(maxsize=1)
+def _terms(text: bytes) -> Terms:
+    """Make this process ready for worlds on these terms."""
     keep_freed_memory()
     gc.set_threshold(_GARBAGE)
     end_at_memory_error(_end)
-    chunk = msgspec.convert(json.loads(request), Chunk)
-    settings = {**chunk.options.settings, "jobs": chunk.wanted.threads}
-    options = replace(chunk.options, settings=settings)
-    care = None if chunk.left_out is None else Care(chunk.left_out, _tell)
-    if chunk.copies is not None:
-        make_room(Path(chunk.copies))
-    with careful(care):
-        terms = terms_of(options, chunk.limits if chunk.left_out else None)
-        made = [_result(world, options, terms, chunk) for world in chunk.worlds]
-    return msgspec.msgpack.encode(made)
+    options, limits, wanted = msgspec.convert(json.loads(text), tuple[CheckOptions, Limits, Wanted])
+    options = replace(options, settings={**options.settings, "jobs": wanted.threads})
+    return Terms(options, terms_of(options), terms_of(options, limits), wanted)
 
 
 def _tell(step: str) -> None:
@@ -117,10 +132,11 @@ def _end() -> NoReturn:
     os._exit(1)
 
 
-def _result(world: World, options: CheckOptions, terms: str, chunk: Chunk) -> _Made:
-    copies = None
-    if chunk.copies is not None and is_remote(world):
-        copies = Copies(Path(chunk.copies), world, anywhere=options.allow_outside)
+def _result(job: Job, terms: Terms) -> _Made:
+    world, options, copies = job.world, terms.options, None
+    if job.copies is not None:
+        make_room(Path(job.copies))
+        copies = Copies(Path(job.copies), world, anywhere=options.allow_outside)
         try:
             checked, unused, files = _checked_copies(world, options, copies)
         except SatcheckError as error:  # of the fetch: the next run tries again
@@ -132,8 +148,9 @@ def _result(world: World, options: CheckOptions, terms: str, chunk: Chunk) -> _M
     inputs = inputs if copies is None else copies.inputs(inputs)
     lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
     is_known = files.are_certain() and not lacking
-    key = key_of(world, terms, inputs, options.folders) if is_known else None
-    line = line_of(result_of(world, checked, inputs, key), timings=not chunk.wanted.kept)
+    of_terms = terms.of_limits if job.left_out else terms.digest
+    key = key_of(world, of_terms, inputs, options.folders) if is_known else None
+    line = line_of(result_of(world, checked, inputs, key), timings=not terms.wanted.kept)
     return checked.verdict, line if copies is None else copies.with_urls(line), unused
 
 

@@ -152,6 +152,28 @@ class StoredResults:
             yield Issue(NO_RESULTS, "warning", None, None, _NO_RESULTS)
 
 
+class NewResults:
+    """The results that a batch of this process has finished: nobody else has written them, so that
+    one reading is enough. count: of them."""
+
+    def __init__(self, path: Path, count: int) -> None:
+        self._path = path
+        self._count = count
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[Stored]:
+        with self._path.open("rb") as lines:
+            for line in lines:
+                yield _stored(read_line(line, Result))
+
+
+def _stored(result: Result) -> Stored:
+    asset = Asset(_named(result.files), result.verdict, result.report)
+    return Stored(result.files, result.inputs, asset)
+
+
 def _files_of(path: Path) -> Iterator[Path]:
     """An unfinished run leaves a part beside the file of an earlier run, or in its place."""
     path = resolved(path)
@@ -268,7 +290,7 @@ def _read(line: _Line) -> Stored:
         reason = f"{line.path}: no result of this version of satcheck: {error}"
         asset = unreadable_asset(name, SatcheckError(BAD_RESULT, reason, file=name))
         return Stored(line.name.files, (), asset)
-    return Stored(result.files, result.inputs, Asset(name, result.verdict, result.report))
+    return _stored(result)
 
 
 def _require_bodies(result: Result) -> None:

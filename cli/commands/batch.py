@@ -222,8 +222,9 @@ def _refuse(
     read = Inputs(paths=files, rules=inputs.rules)
     if files and outputs:
         refuse_early(read, outputs, baseline)
-    readers = [mesh_reader(Path(name).suffix) for name in files]
-    for name in typed(inputs.reading):
+    given = typed(inputs.reading)
+    readers = [mesh_reader(Path(name).suffix) for name in files] if given else []
+    for name in given:
         if None not in readers and not any(
             name in {each.name for each in reader.options} for reader in readers if reader
         ):

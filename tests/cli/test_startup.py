@@ -101,10 +101,11 @@ def test_a_slot_of_a_batch_imports_no_large_library(tmp_path: Path) -> None:
 import sys
 from satcheck.audit.batch.options import CheckOptions
 from satcheck.audit.batch.options import Limits
-from satcheck.audit.batch.slot_server import Chunk, answers_in, request_of, serve
+from satcheck.audit.batch.slot_server import Job, Wanted, answer_in, request_of, serve, text_of
 worlds = ((sys.argv[1],), ("box.obj", "box_pushed.stl"), ("box.obj", "box_flush.stl"))
-reply = serve(request_of(Chunk(worlds, CheckOptions(), Limits())))
-print(*[answer.verdict for answer in answers_in(reply, worlds)], file=sys.stderr)
+terms = text_of((CheckOptions(), Limits(), Wanted()))
+answers = [answer_in(serve(request_of(Job(world), terms)), world) for world in worlds]
+print(*[answer.verdict for answer in answers], file=sys.stderr)
 print(*sys.modules)
 """
     ran = subprocess.run(

@@ -291,6 +291,59 @@ def test_a_lost_child_is_replaced(request_: bytes) -> None:
         assert pid_of(worker) != first
 
 
+def test_replies_come_in_order_while_more_requests_wait() -> None:
+    numbers = [b"%d" % k for k in range(200)]
+    with Worker(SERVER, megabytes=512) as worker:
+        first = pid_of(worker)
+        asked = (b"echo " + number for number in numbers)
+        assert list(worker.replies(asked, seconds=20.0, ahead=lambda: 16)) == numbers
+        assert pid_of(worker) == first
+        assert worker.answered == len(numbers) + 2
+
+
+@pytest.mark.parametrize(
+    ("bad", "error"),
+    [
+        (b"abort", WorkerCrashed),
+        (b"hang", WorkerTimeout),
+        (b"eat_memory 4096", WorkerOutOfMemory),
+        (b"raise no", WorkerFailed),
+    ],
+)
+def test_the_first_request_without_a_reply_is_to_blame(
+    bad: bytes, error: type[WorkerError]
+) -> None:
+    asked = [b"echo a", b"echo b", bad, b"echo c", b"echo d"]
+    replies: list[bytes] = []
+    with Worker(SERVER, megabytes=512) as worker:
+        with pytest.raises(error):
+            replies.extend(worker.replies(asked, seconds=3.0, ahead=lambda: 16))
+        assert replies == [b"a", b"b"]
+        assert worker.ask(b"echo e", seconds=20.0) == b"e"
+
+
+def test_what_is_answered_before_a_stop_is_given(tmp_path: Path) -> None:
+    """The child has begun the last request, so that the second one has its reply."""
+    begun = tmp_path / "pid"
+    asked = [b"echo a", b"echo b", b"record_and_hang " + os.fsencode(begun)]
+    with Worker(SERVER, megabytes=512) as worker:
+        replies = worker.replies(asked, seconds=600.0, ahead=lambda: 3)
+        assert next(replies) == b"a"
+        wait_until(begun.exists)
+        worker.stop()
+        assert next(replies) == b"b"
+        with pytest.raises(WorkerStopped):
+            next(replies)
+
+
+def test_an_iteration_that_is_left_leaves_no_reply_behind() -> None:
+    with Worker(SERVER, megabytes=512) as worker:
+        for reply in worker.replies([b"echo a", b"echo b"], seconds=20.0, ahead=lambda: 2):
+            assert reply == b"a"
+            break
+        assert worker.ask(b"echo c", seconds=20.0) == b"c"
+
+
 def test_threads_take_turns() -> None:
     with Worker(SERVER, megabytes=512) as worker:
         replies: list[bytes] = []

@@ -1,4 +1,4 @@
-"""Mesh files in memory: read once, and again when they have changed."""
+"""Mesh files in memory: those of several scenes are kept, and read again when they have changed."""
 
 from __future__ import annotations
 
@@ -30,6 +30,13 @@ def load(known: KnownMeshes, *names: str) -> Scene:
     return LoadOptions().load(names, known=known)
 
 
+def known_of(triangles: int, *names: str) -> KnownMeshes:
+    """Of files for which scenes have asked before."""
+    known = KnownMeshes(triangles)
+    load(known, *names)
+    return known
+
+
 def mesh(scene: Scene) -> object:
     return scene.bodies[0].file.mesh
 
@@ -47,7 +54,7 @@ def copied(name: str, to: str | None = None) -> str:
 @pytest.mark.parametrize("split", [False, True])
 def test_a_file_is_read_once(split: bool) -> None:
     names = [copied("box.obj")] if split else [copied("box.obj"), copied("cube.off")]
-    known = KnownMeshes(1000)
+    known = known_of(1000, *names)
     with files_read() as first:
         before = load(known, *names)
     with files_read() as second:
@@ -68,8 +75,8 @@ def test_a_file_is_read_once(split: bool) -> None:
 )
 def test_a_file_that_changed_is_read_again(change: Callable[[], object]) -> None:
     copied("cube.off", "box.off")
-    known = KnownMeshes(1000)
-    before = load(known, "box.off", copied("box.obj"))
+    known = known_of(1000, "box.off", copied("box.obj"))
+    before = load(known, "box.off", "box.obj")
     change()
     after = load(known, "box.off", "box.obj")
     assert mesh(after) is not mesh(before)
@@ -79,14 +86,16 @@ def test_a_file_that_changed_is_read_again(change: Callable[[], object]) -> None
 def test_a_fresh_file_is_read_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """It may change once more without another time of change."""
     monkeypatch.setattr("satcheck.scene.opening._GRAIN_NS", 10**15)
-    known = KnownMeshes(1000)
-    before = load(known, copied("box.obj"))
+    known = known_of(1000, copied("box.obj"))
+    before = load(known, "box.obj")
     assert mesh(load(known, "box.obj")) is not mesh(before)
 
 
 def test_files_of_the_longest_ago_make_room() -> None:
     names = [copied(name) for name in ("box.obj", "cube.off", "box_pushed.stl")]
     known = KnownMeshes(250)  # two of them
+    for name in names:
+        load(known, name)
     meshes = [mesh(load(known, name)) for name in names]
     again = [mesh(load(known, name)) for name in reversed(names)]
     assert [new is old for new, old in zip(reversed(again), meshes, strict=True)] == [
@@ -94,6 +103,12 @@ def test_files_of_the_longest_ago_make_room() -> None:
         True,
         True,
     ]
+
+
+def test_a_file_of_one_scene_is_not_kept() -> None:
+    known = KnownMeshes(1000)
+    first = mesh(load(known, copied("box.obj")))
+    assert mesh(load(known, "box.obj")) is not first
 
 
 def test_a_file_that_fails_fails_again() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import dask
@@ -117,7 +117,8 @@ def test_a_worker_that_is_closed_loses_nothing(
 class Poisoned(Slot):
     """Some worlds end the process of the Dask worker itself."""
 
-    def check(self, worlds: Sequence[World]) -> Iterator[Answer]:
+    def check(self, worlds: Iterable[World]) -> Iterator[Answer]:
+        worlds = tuple(worlds)
         if any(name.endswith("poison.toml") for (name,) in worlds):
             os.kill(os.getpid(), signal.SIGKILL)
         return super().check(worlds)

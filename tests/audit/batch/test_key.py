@@ -17,7 +17,15 @@ from satcheck.audit.batch.key import digest, inputs_of
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.run import run
-from satcheck.audit.batch.slot_server import Answer, Chunk, answers_in, request_of, serve
+from satcheck.audit.batch.slot_server import (
+    Answer,
+    Job,
+    Wanted,
+    answer_in,
+    request_of,
+    serve,
+    text_of,
+)
 from satcheck.report.assets import InputFile
 from satcheck.scene import mesh_files
 from satcheck.scene.files.reading_children import ReadingChildren
@@ -40,8 +48,8 @@ def checked(worlds: Sequence[World], options: CheckOptions | None = None) -> lis
 
     def engine(waiting: Sequence[World]) -> Generator[list[Answer]]:
         done.extend(waiting)
-        if waiting:
-            yield answers_in(serve(request_of(Chunk(tuple(waiting), options, Limits()))), waiting)
+        terms = text_of((options, Limits(), Wanted()))
+        yield [answer_in(serve(request_of(Job(each), terms)), each) for each in waiting]
 
     with ResultsFile(Path("results.jsonl")) as results:
         run(worlds, options, Limits(), engine, results, lambda _: None)

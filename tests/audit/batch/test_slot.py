@@ -16,15 +16,17 @@ from typing import Any
 
 import pytest
 
+from satcheck.audit.batch import local
 from satcheck.audit.batch import slot as slot_module
 from satcheck.audit.batch.local import check_locally
-from satcheck.audit.batch.options import CheckOptions, Limits, World
+from satcheck.audit.batch.options import CheckOptions, Limits, Pace, World
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.run import run
 from satcheck.audit.batch.slot import Slot
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.core import worker
 from satcheck.core.worker_errors import WorkerNotStarted
+from satcheck.report.assets import LEFT_OUT
 from tests.cli.process import SAMPLES, command, environment, on_posix
 
 pytestmark = on_posix
@@ -73,7 +75,7 @@ def slot() -> Iterator[Callable[[Limits], Slot]]:
 
     yield make
     for each in made:
-        each.stop()
+        each.close()
 
 
 def scene(name: str, *bodies: tuple[str, str]) -> World:
@@ -312,6 +314,43 @@ def test_no_child_of_a_worker_outlives_it(
         os.kill(worker, signal.SIGKILL)
     assert until(lambda: reader not in marked(mark))
     assert until(lambda: not marked(mark))
+
+
+def test_worlds_behind_a_culprit_are_sent_again(
+    slot: Callable[[Limits], Slot], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Eager(Pace):
+        def __init__(self, largest: int) -> None:
+            super().__init__(largest)
+            self.size = largest
+
+    monkeypatch.setattr(slot_module, "Pace", Eager)
+    words = ["a", "abort", "b", "segfault", "c"]
+    worlds = [scene(f"{word}.toml", ("a", f"{word}.obj"), ("b", "box.obj")) for word in words]
+    results = checked(slot(PATIENT), *worlds)
+    named = [[text for code, _, text in issues(each) if code in LEFT_OUT] for each in results]
+    assert [bool(texts) for texts in named] == [False, True, False, True, False]
+    assert all(result["key"] for result in results)
+
+
+def test_an_interrupt_takes_what_processes_have_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It comes before the first look for answers, when all but the last world have theirs."""
+    worlds = [good(f"{number}.toml") for number in range(8)] + [
+        scene("hang.toml", ("a", "hang.obj"), ("b", "box.obj"))
+    ]
+    begun = Path("begun")
+    monkeypatch.setenv("PLANTED_BEGUN", str(begun.resolve()))
+
+    def interrupted(_: object) -> list[Answer]:
+        assert until(begun.exists)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(local._Slots, "answers", interrupted)
+    coming = check_locally(worlds, CheckOptions(), Limits(seconds=600.0), slots=1)
+    answers = next(coming)
+    assert [answer.world for answer in answers] == worlds[:-1]
+    with pytest.raises(KeyboardInterrupt):
+        next(coming)
 
 
 def test_a_mesh_of_many_scenes_is_split_once(
