@@ -198,13 +198,17 @@ class Reader(Struct, frozen=True):
     texts: tuple[bytes, ...] | None = None
 
     def values(self, given: ReadOptions) -> dict[str, OptionValue | None]:
-        """Return the values of its options, for `File.options`. Raises SatcheckError."""
-        return {
-            option.name: option.converted(given[option.name])
-            if option.name in given
-            else option.default
-            for option in self.options
-        }
+        """Return the values of its options, for `File.options`. Raises Refused for one that it does
+        not take, while another reader takes it."""
+        try:
+            return {
+                option.name: option.converted(given[option.name])
+                if option.name in given
+                else option.default
+                for option in self.options
+            }
+        except SatcheckError as error:
+            raise Refused("unsupported-feature", f"{self.title}: {error.message}") from None
 
     def checked(self, made: Document) -> Document:
         """Return a document that it has made, and what has to be said of all its documents. Raises

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated
 
 import pytest
+from msgspec import Meta
 from msgspec.structs import replace
 
 from satcheck.audit.batch.key import terms_of
@@ -12,7 +14,8 @@ from satcheck.audit.batch.options import CheckOptions
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import facets, option_named, stated_options
+from satcheck.scene.files.readers import Option, Reader, facets, option_named, stated_options
+from satcheck.scene.issue import CODES
 from tests.cli.process import SAMPLES, satcheck
 from tests.plugin_marks import needs
 
@@ -137,3 +140,11 @@ def test_what_is_wrong_on_the_command_line_is_said(given: list[str], said: str) 
     ran = satcheck(*words, str(SAMPLES / "box.obj"), str(SAMPLES / "box_flush.stl"))
     assert ran.code == 2
     assert said in " ".join(ran.err.split())
+
+
+def test_a_value_that_only_another_reader_takes_is_refused_for_the_file() -> None:
+    narrow = Option("purpose", Annotated[float, Meta(gt=0)], "a number")
+    reader = Reader("toy", "TOY", (".toy",), "toy:read", options=(narrow,))
+    with pytest.raises(Refused, match="TOY: purpose should be") as refused:
+        reader.values({"purpose": "render"})
+    assert refused.value.code in CODES
