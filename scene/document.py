@@ -185,7 +185,7 @@ class Document(Struct, frozen=True, tag=True):
             raise Refused("empty-mesh", "empty mesh: nothing that the file places has triangles")
         if len(self.items) > 1 and len({item.path for item in self.items}) < len(self.items):
             raise Refused("reader-failed", "its reader gives two bodies one path")
-        if not {item.number for item in self.items}.issubset(range(len(self.parts))):
+        if not all(0 <= item.number < len(self.parts) for item in self.items):
             raise Refused("reader-failed", "its reader places a mesh that is not there")
 
 

@@ -367,12 +367,12 @@ class SceneBuilder:
         Groups of several files are different, even if they have the same name. Those of mesh files,
         buildings and stages are one group, unless rules of the file name the group.
         """
-        own = {group for rule in document.pairs if rule.of_groups for group in (rule.a, rule.b)}
         named = dict.fromkeys(group for item in document.items for group in item.groups)
-        prefix = f"{document.name}: " if document.robot else ""
         scene_file = _scene_file(document)
         if scene_file is not None:
             named |= dict.fromkeys(sorted(scene_file.ignore_within_groups))
+        own = {group for rule in document.pairs if rule.of_groups for group in (rule.a, rule.b)}
+        prefix = f"{document.name}: " if document.robot else ""
         if prefix or scene_file is not None:
             own = {*named}
         groups = {}
@@ -404,7 +404,7 @@ class SceneBuilder:
             case exact:
                 # A report states it by its sizes, and no node of a file.
                 file, node = self._files.shape(exact, path), None
-        groups_here = tuple(own.groups[group] for group in item.groups)
+        groups_here = tuple(map(own.groups.__getitem__, item.groups))
         if isinstance(file, Refused):
             # A file of shapes has many bodies: the message is about the body, not the file.
             message = str(file) if exact is None else file.message
@@ -427,6 +427,7 @@ class SceneBuilder:
             surface_tolerance=item.surface_tolerance,
         )
         own.bodies.append(body)
+        own.readable.append(body)
         return id_
 
     def _in_other_file(self, item: Item, named: FilePart, own: str | None) -> Item:
@@ -457,8 +458,7 @@ class SceneBuilder:
         """Raises Refused if a rule has to be expanded into too many pairs."""
         common = in_one_unit(self._inputs)
         scene = self._bodies_and_files(common)
-        bodies = {body.id: body for each in self._inputs for body in each.readable}
-        robots = [_robot(each, bodies) for each in self._inputs if each.document.robot]
+        robots = [_robot(each) for each in self._inputs if each.document.robot]
         jointed = [
             (each.document, dict(_links(each)))
             for each in self._inputs
@@ -539,13 +539,12 @@ def _scene_file(document: Document) -> SceneFile | None:
     return document if isinstance(document, SceneFile) else None
 
 
-def _robot(added: Input, bodies: Mapping[str, Body]) -> SceneRobot:
-    """bodies: that can be used, by id, as the file places them in their links."""
+def _robot(added: Input) -> SceneRobot:
     from satcheck.scene.robot import RobotBody, SceneRobot
 
     document = added.document
     assert document.robot is not None
-    own = []
+    own, bodies = [], {body.id: body for body in added.readable}
     for item, id_ in zip(document.items, added.ids, strict=True):
         placed = bodies[id_].transform if id_ in bodies else item.transform
         own.append(RobotBody(id_, item.link or "", placed or IDENTITY, item.groups))
@@ -562,6 +561,8 @@ def _links(added: Input) -> Iterator[tuple[str, str]]:
 def _rules(added: Input) -> Iterator[Rule]:
     """The rules of a document about its own items and groups."""
     path, pairs = added.document.path, added.document.pairs
+    if not pairs:
+        return
     ids = dict(zip((item.path or "" for item in added.document.items), added.ids, strict=True))
     for rule in pairs:
         select = Selector.exactly_group if rule.of_groups else Selector.exactly

@@ -83,12 +83,20 @@ class MeshFiles:
 
     def document(self, path: str, location: StrPath, split: Split) -> Document | Refused:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
-        key = _absolute(location), split
+        key = self._place(location), split
         load = partial(self._load, path, location, split)
         if self._known is not None:
             load = partial(self._known.recall, (path, key, *self._terms), load)
         made: Document | Refused = self._once(key, load)
         return made
+
+    @cached_property
+    def _folder(self) -> str:
+        """That relative paths are of. The process stays there while it reads a scene."""
+        return os.getcwd()  # noqa: PTH109
+
+    def _place(self, location: StrPath) -> str:
+        return os.path.join(self._folder, location)  # noqa: PTH118  many bodies share a path
 
     def _once(self, key: Hashable, make: Callable[[], Any]) -> Any:
         """Return what `make` returns, or the Refused that it raises; both once."""
@@ -108,8 +116,10 @@ class MeshFiles:
     def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
         """In this process, or in the child process, as its reader says. kind: of its documents."""
         if reader.here and file.size <= reader.here:
-            with suppress(NeedsChild):
+            try:
                 return reader.checked(function_at(reader.read)(file))
+            except NeedsChild:
+                pass
         if reader.by_name:
             file = replace(file, data=b"")
         made = read_in_child(file, reader.read, kind, self._children, self.allowed)
@@ -120,7 +130,7 @@ class MeshFiles:
         mark of a convex hull, which may also stand alone."""
         path, location, part = named.path, named.location, named.part
         if part is not None and part.endswith(HULL_MARK):
-            hull: Item = self._once((_absolute(location), part), partial(self._hull, named))
+            hull: Item = self._once((self._place(location), part), partial(self._hull, named))
             return hull
         split: Split = (
             "none" if part is None else "components" if COMPONENT_MARK in part else "nodes"
@@ -131,7 +141,7 @@ class MeshFiles:
         if part is None:
             return loaded.items[0]
         by_path: dict[str, Item] = self._once(
-            (_absolute(location), "by path", split),
+            (self._place(location), "by path", split),
             lambda: {item.path or "": item for item in loaded.items},
         )
         if part in by_path:
@@ -164,7 +174,7 @@ class MeshFiles:
 
     def issues_of_parts(self, location: StrPath) -> tuple[Issue, ...]:
         """Return the issues that concern no single part of a file whose parts are read."""
-        place = _absolute(location)
+        place = self._place(location)
         made = [self._made.get((place, split)) for split in ("nodes", "components")]
         return next((each.issues for each in made if isinstance(each, Document)), ())
 
@@ -182,7 +192,7 @@ class MeshFiles:
         releases the GIL.
         """
         waiting = {
-            _absolute(location): (path, location)
+            self._place(location): (path, location)
             for path, location in given
             if _is_read_here(location) and _is_large(location)
         }
@@ -290,10 +300,6 @@ def _triangles(read: Document) -> int:
     """Each mesh counts for a little more than its triangles."""
     shapes = (item.shape for item in read.items)
     return sum(100 + shape.mesh.triangle_count for shape in shapes if isinstance(shape, MeshFile))
-
-
-def _absolute(location: StrPath) -> str:
-    return os.path.join(os.getcwd(), location)  # noqa: PTH109, PTH118  many bodies share a path
 
 
 def _reading(path: str, location: StrPath) -> AbstractContextManager[None]:

@@ -271,6 +271,14 @@ def signature(name: str) -> Signature:
     )
 
 
+def _is_plain_file(place: StrPath) -> bool:
+    """Return whether it is a file, and no link to one."""
+    try:
+        return stat.S_ISREG(os.lstat(place).st_mode)
+    except (OSError, ValueError):
+        return False
+
+
 class Context:
     """The files that one file may name.
 
@@ -304,10 +312,13 @@ class Context:
         return tuple(folder.rstrip(os.sep) + os.sep for folder in own)
 
     def permits(self, place: StrPath) -> bool:
+        return self._permits(place, is_plain=_is_plain_file(place))
+
+    def _permits(self, place: StrPath, *, is_plain: bool) -> bool:
         if self.permitted.anywhere:
             return True
         folder, name = os.path.split(place)
-        if name in ("", os.curdir, os.pardir) or os.path.islink(place):  # noqa: PTH114
+        if not is_plain or name in ("", os.curdir, os.pardir):
             return f"{followed(Path(place))}{os.sep}".startswith(self._folders)
         if folder not in self._followed:
             self._followed[folder] = str(followed(Path(folder)))
@@ -329,9 +340,10 @@ class Context:
         is_tidy = "./" not in name and "//" not in name
         place = os.path.join(self._start, name) if is_tidy else str(Path(self._folder, name))  # noqa: PTH118
         note(place)
-        if not self.permits(place):
+        is_plain = _is_plain_file(place)
+        if not self._permits(place, is_plain=is_plain):
             raise self.refusal(what)
-        if not is_file(place):
+        if not is_plain and not is_file(place):
             raise no_file(place, f"{what} ") or Refused("missing-resource", f"{what} is missing")
         return place
 
@@ -424,6 +436,7 @@ _WIDE_MARKS = (
     (codecs.BOM_UTF16_LE, "utf-16-le"),
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
+_ANY_MARK = (codecs.BOM_UTF8, *(mark for mark, _ in _WIDE_MARKS))
 
 LARGE_FILE_BYTES = 1_000_000  # larger files get their own thread and are read in pieces
 _STL_HEADER_BYTES = 84
@@ -458,6 +471,7 @@ _FIRST_WORDS = (
 )
 _FIRST_WORD = re.compile(rb"(?:\s*+#[^\r\n]*+)*+\s*+([^\s]++)")  # that is no comment
 _TEXT_HEAD_BYTES = 4096
+_READ = os.O_RDONLY | getattr(os, "O_BINARY", 0)  # `FileIO` takes twice as long
 _BINARY_PLY = b"\nformat binary"
 
 
@@ -572,15 +586,18 @@ def _read(
     Refused."""
     most.refuse_beyond(size)
     try:
-        with FileIO(location) as file:
+        file = os.open(location, _READ)
+        try:
             if in_pieces and size >= LARGE_FILE_BYTES:
-                head = file.read(_TEXT_HEAD_BYTES)
+                head = read_file(file, _TEXT_HEAD_BYTES)
                 if _is_binary_stl(size, head):
                     return size, head
-                file.seek(0)
-            data = read_file(file.fileno(), size)
-            if more := file.read(1):
-                data += more + read_file(file.fileno(), most.size - len(data))
+                os.lseek(file, 0, os.SEEK_SET)
+            data = read_file(file, size)
+            if more := os.read(file, 1):
+                data += more + read_file(file, most.size - len(data))
+        finally:
+            os.close(file)
     except OSError as error:
         raise _unreadable(error) from None
     most.refuse_beyond(len(data))
@@ -589,6 +606,8 @@ def _read(
 
 def _without_mark(data: bytes) -> bytes:
     """Converts text with a byte order mark to UTF-8 without one."""
+    if not data.startswith(_ANY_MARK):
+        return data
     if data.startswith(codecs.BOM_UTF8):
         return data[len(codecs.BOM_UTF8) :]
     for mark, encoding in _WIDE_MARKS:

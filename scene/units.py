@@ -130,7 +130,8 @@ class Input(Struct):
     """A document in the check.
 
     unit: meant by the units that it declares, or given for inputs that declare none; None: unknown.
-    groups: in the file -> in the check. ids: of its items in the check. bodies: of these items.
+    groups: in the file -> in the check. ids: of its items in the check. bodies: of these items,
+    and readable: those of them that can be used.
     """
 
     document: Document
@@ -138,6 +139,7 @@ class Input(Struct):
     groups: Mapping[str, str]
     ids: list[str] = []
     bodies: list[Body | Unreadable] = []
+    readable: list[Body] = []
 
     @property
     def kind(self) -> Kind:
@@ -146,10 +148,6 @@ class Input(Struct):
     @property
     def path(self) -> str:
         return self.document.path
-
-    @property
-    def readable(self) -> list[Body]:
-        return [body for body in self.bodies if isinstance(body, Body)]
 
 
 class InOneUnit(Struct, frozen=True):

@@ -59,11 +59,11 @@ def test_a_component_is_a_part_of_any_format(tmp_path):
 
 
 def test_a_file_is_read_once_whichever_way_it_is_named(wheel, monkeypatch):
+    monkeypatch.chdir(wheel.parent)
     read = MeshFiles()
     first = read.item(FilePart("wheel.glb", str(wheel)))
     part = read.item(FilePart("wheel.glb", str(wheel), "rim"))
     wheel.unlink()
-    monkeypatch.chdir(wheel.parent)
     assert read.item(FilePart("wheel.glb", str(wheel.relative_to(wheel.parent)))) is first
     assert read.item(FilePart("wheel.glb", str(wheel), "rim")) is part
 
