@@ -110,8 +110,7 @@ class Body(Struct, frozen=True):
     def resolution_world(self) -> float:
         """Precision of the world coordinates: the file's resolution, stretched by the transform,
         plus the precision of the placement."""
-        low, high = self.file.mesh.bounds
-        return resolution_in_world(self.file, self.transform, max(map(abs, (*low, *high))))
+        return resolution_in_world(self.file, self.transform, self.file.mesh.largest_coordinate)
 
     @property
     def facet_tolerance(self) -> float:

@@ -92,7 +92,7 @@ def mesh_file(
         examined = examine_bytes(raw.vertices, raw.triangles, resolution)
     else:
         examined = examine(mesh, resolution=resolution)
-    largest = _largest(examined.mesh)
+    largest = examined.mesh.largest_coordinate
     precision = file_resolution(raw, largest)
     far = far_vertex(raw, examined.mesh, largest, precision)
     said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
@@ -114,13 +114,7 @@ def mesh_file(
 
 def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
     """Return the precision of the coordinates of the mesh."""
-    return file_resolution(raw, _largest(mesh))
-
-
-def _largest(mesh: Mesh) -> float:
-    """Return the largest |coordinate|."""
-    low, high = mesh.bounds
-    return max(map(abs, (*low, *high)))
+    return file_resolution(raw, mesh.largest_coordinate)
 
 
 def shape_file(shape: Shape, path: str) -> MeshFile:
@@ -143,7 +137,7 @@ def shape_file(shape: Shape, path: str) -> MeshFile:
         path=path,
         sha256=hashlib.sha256(canonical.encode()).hexdigest(),
         format=SHAPE_FORMAT,
-        resolution=_largest(examined.mesh) * FLOAT64_STEP,
+        resolution=examined.mesh.largest_coordinate * FLOAT64_STEP,
         units=None,
         mesh=examined.mesh,
         topology=examined.topology,

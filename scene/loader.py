@@ -371,6 +371,8 @@ class SceneBuilder:
         scene_file = _scene_file(document)
         if scene_file is not None:
             named |= dict.fromkeys(sorted(scene_file.ignore_within_groups))
+        if not named:
+            return {}
         own = {group for rule in document.pairs if rule.of_groups for group in (rule.a, rule.b)}
         prefix = f"{document.name}: " if document.robot else ""
         if prefix or scene_file is not None:

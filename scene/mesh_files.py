@@ -109,9 +109,9 @@ class MeshFiles:
 
     def _load(self, path: str, location: StrPath, split: Split) -> Document:
         with _reading(path, location), ErrorsOf(path):
-            file = open_file(path, location, required_reader, self.allowed, whole=split == "none")
-            reader = required_reader(suffix_of(location))
-            return document_of(file, self._read(reader, file, Document), split)
+            whole = split == "none"
+            reader, file = open_file(path, location, required_reader, self.allowed, whole=whole)
+            return document_of(file, self._read(reader, file, Document), split, reader.kind)
 
     def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
         """In this process, or in the child process, as its reader says. kind: of its documents."""

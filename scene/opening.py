@@ -109,7 +109,7 @@ OWN_FILE = Most(1 << 30, "the most for such a file: write less into it")
 _OF_MEMORY = " of the memory for one file (raise it with --limit megabytes=N)"
 
 
-class Permitted(Struct, frozen=True):
+class Permitted(Struct, frozen=True, dict=True):
     """A file may name what lies in its own folder, and in these folders, which are without links.
 
     anywhere: all other files too. megabytes: of memory for reading one.
@@ -119,7 +119,7 @@ class Permitted(Struct, frozen=True):
     anywhere: bool = False
     megabytes: int = DEFAULT_MEGABYTES_PER_FILE
 
-    @property
+    @cached_property
     def most(self) -> Most:
         """Return the limit of any file: reading a text takes about three times its size."""
         return self._share(4, "a quarter")
@@ -538,8 +538,9 @@ def open_file(
     allowed: ReadLimits,
     *,
     whole: bool = False,
-) -> File:
-    """Return a mesh file as its reader takes it. Raises Refused, without a file name.
+) -> tuple[Reader, File]:
+    """Return the reader of a mesh file, and the file as it takes it. Raises Refused, without a file
+    name.
 
     path: its name in messages and reports. location: on disk. find: returns the reader of a suffix,
     or raises Refused. Of a large binary STL file whose SHA-256 is not wanted only the first bytes
@@ -564,7 +565,7 @@ def open_file(
         message = f"not of format {reader.title}: its content is {content}"
         raise Refused("format-mismatch", message)
     folder, name = os.path.split(location)
-    return File(
+    return reader, File(
         reader.name,
         folder or os.curdir,
         name,
@@ -632,8 +633,8 @@ def _other_content(reader: Reader, data: bytes, *, is_stl: bool) -> str | None:
 
 
 def _is_binary_stl(size: int, data: bytes) -> bool:
-    count = int.from_bytes(data[_STL_COUNT], "little")
-    return count > 0 and size == _STL_HEADER_BYTES + _STL_FACET_BYTES * count
+    count, rest = divmod(size - _STL_HEADER_BYTES, _STL_FACET_BYTES)
+    return count > 0 and not rest and count == int.from_bytes(data[_STL_COUNT], "little")
 
 
 def _other_text(data: bytes) -> str | None:

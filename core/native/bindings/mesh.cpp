@@ -8,6 +8,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <stdexcept>
@@ -154,6 +155,13 @@ when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing 
                      for (const Vec3& p : mesh.vertices) box.include(p);
                      return std::make_tuple(to_tuple(box.min), to_tuple(box.max));
                    })
+      .def_prop_ro("largest_coordinate",
+                   [](const Mesh& mesh) {
+                     double largest = 0;
+                     for (const Vec3& p : mesh.vertices) largest = std::fmax(largest, max_abs(p));
+                     return largest;
+                   },
+                   "The largest |coordinate|; 0.0 of an empty mesh.")
       .def_prop_ro("vertices",
                    [](nb::handle self) {
                      return rows_view<double>(nb::cast<const Mesh&>(self).vertices, self);
