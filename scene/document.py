@@ -215,7 +215,8 @@ def plain_ids(paths: Sequence[str]) -> list[str]:
     suffixes if only these differ. Paths to the same file get the same id.
     """
     same_stem: dict[str, dict[str, str]] = {}
-    places = list(map(os.path.abspath, paths))
+    here = os.getcwd()  # noqa: PTH109
+    places = [os.path.normpath(os.path.join(here, path)) for path in paths]  # noqa: PTH118
     for path, place in zip(paths, places, strict=True):
         same_stem.setdefault(name_of(path)[0] or path, {}).setdefault(place, path)
     ids: dict[str, str] = {}

@@ -390,7 +390,7 @@ class SceneBuilder:
     def _add(self, item: Item, own: Input) -> str:
         """Adds a body of this input and returns its id."""
         id_ = self._ids.unique(item.id)
-        path = own.path
+        path = own.document.path
         if item.entry is not None:
             self._entries[id_] = item.entry
             path = item.entry.file
@@ -491,7 +491,7 @@ class SceneBuilder:
         return posed(scene, {}).reaching()
 
     def _bodies_and_files(self, common: InOneUnit) -> Scene:
-        inputs = [each for each in self._inputs if each.kind != "rules"]
+        inputs = [each for each in self._inputs if each.document.kind != "rules"]
         bodies = [body for each in inputs for body in each.readable]
         everyone = [body for each in inputs for body in each.bodies]
         lost = [body for body in everyone if isinstance(body, Unreadable)]
@@ -507,10 +507,12 @@ class SceneBuilder:
             bodies=common.bodies,
             unreadable=tuple(lost),
             order=tuple(body.id for body in everyone),
-            rules=tuple(rule for each in self._inputs for rule in _rules(each)),
+            rules=tuple(
+                rule for each in self._inputs if each.document.pairs for rule in _rules(each)
+            ),
             entries=self._entries,
             reading=self._files.allowed.options,
-            composed=any(each.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
+            composed=any(each.document.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
         files = [each for each in self._inputs if _scene_file(each.document) is not None]
@@ -563,8 +565,6 @@ def _links(added: Input) -> Iterator[tuple[str, str]]:
 def _rules(added: Input) -> Iterator[Rule]:
     """The rules of a document about its own items and groups."""
     path, pairs = added.document.path, added.document.pairs
-    if not pairs:
-        return
     ids = dict(zip((item.path or "" for item in added.document.items), added.ids, strict=True))
     for rule in pairs:
         select = Selector.exactly_group if rule.of_groups else Selector.exactly
@@ -583,7 +583,7 @@ def _rules(added: Input) -> Iterator[Rule]:
 
 def _unclear_axes(inputs: Sequence[Input], issues: Sequence[Issue]) -> Iterator[Issue]:
     """A mesh file whose axis nothing turns, beside one that names no axis."""
-    meshes = [each.path for each in inputs if each.kind == "mesh"]
+    meshes = [each.document.path for each in inputs if each.document.kind == "mesh"]
     stated = {issue.file for issue in issues if issue.code == "up-axis"}.intersection(meshes)
     for path in meshes if stated else ():
         reader = mesh_reader(suffix_of(path))
@@ -610,7 +610,8 @@ def _issues_of_files(bodies: Sequence[Body]) -> list[Issue]:
     """The warnings of each file once; with the id of the body if only one body uses the file."""
     users: dict[tuple[str, str | None], list[Body]] = {}
     for body in bodies:
-        users.setdefault((body.file.path, body.file.part), []).append(body)
+        if body.file.issues:
+            users.setdefault((body.file.path, body.file.part), []).append(body)
     return [
         _shared(warning, together)
         for together in users.values()

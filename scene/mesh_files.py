@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.core.errors import SatcheckError
 from satcheck.core.plugins import function_at
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
@@ -328,6 +327,6 @@ def _is_read_here(location: StrPath) -> bool:
 
 def _is_large(location: StrPath) -> bool:
     try:
-        return size_of(location) >= LARGE_FILE_BYTES
-    except SatcheckError:  # reported when the file is used
+        return os.path.getsize(location) >= LARGE_FILE_BYTES  # noqa: PTH202
+    except (OSError, ValueError):  # reported when the file is used
         return False

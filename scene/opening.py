@@ -321,9 +321,8 @@ class Context:
         if not is_plain or name in ("", os.curdir, os.pardir):
             return f"{followed(Path(place))}{os.sep}".startswith(self._folders)
         if folder not in self._followed:
-            self._followed[folder] = str(followed(Path(folder)))
-        real = os.path.join(self._followed[folder], name, "")  # noqa: PTH118  many files lie there
-        return real.startswith(self._folders)
+            self._followed[folder] = str(followed(Path(folder))).rstrip(os.sep)
+        return f"{self._followed[folder]}{os.sep}{name}{os.sep}".startswith(self._folders)
 
     def refusal(
         self, what: str, advice: str = "refused (allow it with --allow-outside)"
