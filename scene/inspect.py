@@ -22,7 +22,6 @@ from satcheck.core import (
     Inspection,
     Mesh,
     TooManySteps,
-    Topology,
     inspect,
     inspect_bytes,
     with_cracks_closed,
@@ -103,7 +102,6 @@ def mesh_file(
         resolution=precision,
         units=raw.units,
         mesh=examined.mesh,
-        topology=examined.topology,
         health=examined.health,
         issues=tuple(issue(code, message, file=file.path) for code, message in said),
         part=part,
@@ -140,7 +138,6 @@ def shape_file(shape: Shape, path: str) -> MeshFile:
         resolution=examined.mesh.largest_coordinate * FLOAT64_STEP,
         units=None,
         mesh=examined.mesh,
-        topology=examined.topology,
         health=examined.health,
         issues=(),
     )
@@ -169,7 +166,6 @@ def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
         file,
         sha256=hashlib.sha256(b"".join(mesh.to_bytes())).hexdigest(),
         mesh=examined.mesh,
-        topology=examined.topology,
         health=examined.health,
     )
 
@@ -177,11 +173,10 @@ def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
 class Examined(Struct, frozen=True):
     """A welded mesh and its health. The mesh is wound outward if its orientation can be decided.
 
-    topology: before the repair. warnings: (code, message).
+    warnings: (code, message).
     """
 
     mesh: Mesh
-    topology: Topology
     health: MeshHealth
     warnings: tuple[tuple[str, str], ...]
 
@@ -261,7 +256,7 @@ def _judged(inspection: Inspection) -> Examined:
         flat=not after.solid and inspection.mesh.is_flat(),
         solid=after.solid,
     )
-    return Examined(inspection.mesh, topology, health, tuple(_warnings(health, turned)))
+    return Examined(inspection.mesh, health, tuple(_warnings(health, turned)))
 
 
 def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
