@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -515,23 +515,16 @@ class SceneBuilder:
             composed=any(each.document.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
-        files = [each for each in self._inputs if _scene_file(each.document) is not None]
+        files = [(each, file) for each in self._inputs if (file := _scene_file(each.document))]
         if not files:
             return scene
         from satcheck.scene.scene_file.joined import Joined, joined
 
         stated = []
-        for each in files:
-            file = cast("SceneFile", each.document)
-            stated.append(
-                Joined(file, dict(_ids_of(each)), each.groups, common.scales.get(file.path, 1.0))
-            )
+        for each, file in files:
+            ids = dict(zip((item.id for item in file.items), each.ids, strict=True))
+            stated.append(Joined(file, ids, each.groups, common.scales.get(file.path, 1.0)))
         return joined(scene, stated, alone=len(inputs) == 1)
-
-
-def _ids_of(added: Input) -> Iterator[tuple[str, str]]:
-    """Ids in the document, and in the check."""
-    return zip((item.id for item in added.document.items), added.ids, strict=True)
 
 
 def _scene_file(document: Document) -> SceneFile | None:

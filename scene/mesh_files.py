@@ -69,6 +69,7 @@ class MeshFiles:
         self._terms = allowed.key
         self._known = known
         self._made: dict[Hashable, Any] = {}
+        self._folder = os.getcwd()  # noqa: PTH109  the process stays there for this scene
 
     @cached_property
     def _children(self) -> ReadingChildren:
@@ -88,11 +89,6 @@ class MeshFiles:
             load = partial(self._known.recall, (path, key, *self._terms), load)
         made: Document | Refused = self._once(key, load)
         return made
-
-    @cached_property
-    def _folder(self) -> str:
-        """That relative paths are of. The process stays there while it reads a scene."""
-        return os.getcwd()  # noqa: PTH109
 
     def _place(self, location: StrPath) -> str:
         return os.path.join(self._folder, location)  # noqa: PTH118  many bodies share a path

@@ -311,14 +311,12 @@ class Context:
         own = (str(self.own), str(followed(Path(self._folder))), *self.permitted.folders)
         return tuple(folder.rstrip(os.sep) + os.sep for folder in own)
 
-    def permits(self, place: StrPath) -> bool:
-        return self._permits(place, is_plain=_is_plain_file(place))
-
-    def _permits(self, place: StrPath, *, is_plain: bool) -> bool:
+    def permits(self, place: StrPath, *, is_plain: bool = False) -> bool:
+        """Return whether the file may name this one. is_plain: it is known to be no link."""
         if self.permitted.anywhere:
             return True
         folder, name = os.path.split(place)
-        if not is_plain or name in ("", os.curdir, os.pardir):
+        if name in ("", os.curdir, os.pardir) or not (is_plain or _is_plain_file(place)):
             return f"{followed(Path(place))}{os.sep}".startswith(self._folders)
         if folder not in self._followed:
             self._followed[folder] = str(followed(Path(folder))).rstrip(os.sep)
@@ -340,7 +338,7 @@ class Context:
         place = os.path.join(self._start, name) if is_tidy else str(Path(self._folder, name))  # noqa: PTH118
         note(place)
         is_plain = _is_plain_file(place)
-        if not self._permits(place, is_plain=is_plain):
+        if not self.permits(place, is_plain=is_plain):
             raise self.refusal(what)
         if not is_plain and not is_file(place):
             raise no_file(place, f"{what} ") or Refused("missing-resource", f"{what} is missing")
