@@ -10,7 +10,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from functools import cached_property, partial
 from pathlib import Path
-from threading import Lock
+from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
@@ -193,13 +193,20 @@ class MeshFiles:
         }
         if len(waiting) < 2 or is_careful():
             return
-        from concurrent.futures import ThreadPoolExecutor
+        files = iter(waiting.values())
 
-        # Without a further thread the remaining files are read when they are used. An error of a
-        # file, too, is reported then.
-        with suppress(RuntimeError), ThreadPoolExecutor(os.cpu_count()) as pool:
-            for path, location in waiting.values():
-                pool.submit(self.document, path, location, "none")
+        def read() -> None:
+            for path, location in files:
+                with suppress(Exception):  # it is raised again when the file is used
+                    self.document(path, location, "none")
+
+        threads = [Thread(target=read) for _ in range(min(len(waiting), os.cpu_count() or 1))]
+        with suppress(RuntimeError):  # no further thread: the other files are read when used
+            for thread in threads:
+                thread.start()
+        for thread in threads:
+            if thread.ident is not None:
+                thread.join()
 
     def robot(
         self,
