@@ -65,8 +65,8 @@ def origin_of(name: str) -> str:
 class Told(click.Option):
     """An option whose help is told when it is shown: other packages may have registered by then."""
 
-    def __init__(self, *args: Any, tell: Callable[[], str], **more: Any) -> None:
-        super().__init__(*args, help=tell(), **more)
+    def __init__(self, names: Sequence[str], *, tell: Callable[[], str], **more: Any) -> None:
+        super().__init__(names, help=tell(), **more)
         self.tell = tell
 
     def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
