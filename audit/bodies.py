@@ -160,8 +160,7 @@ class BodyCache:
         if body.file.prepared is not None:  # of one mesh, whatever the body is called
             meshes, key = body.file.prepared, (*key[2:], *SharedMesh.terms(settings))
         if key not in meshes:
-            in_file = bounds if body.transform is None else None
-            meshes[key] = SharedMesh(body.file, settings, in_file, is_open=body.open)
+            meshes[key] = SharedMesh(body.file, settings, is_open=body.open)
         placed = PlacedBody(body, meshes[key], bounds)
         if (largest := largest_coordinate(placed.bounds)) > LARGEST_PLACED:
             far, most = told_apart(largest, LARGEST_PLACED)

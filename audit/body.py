@@ -123,19 +123,17 @@ class SharedMesh:
         self,
         file: MeshFile,
         settings: Settings,
-        bounds: Box | None = None,
         *,
         is_open: bool = False,
     ) -> None:
-        """bounds: of the mesh, where known. is_open: it is meant to be open."""
+        """is_open: it is meant to be open."""
         self.file = file
         is_open = is_open or settings.allow_open
         self.triangles = file.mesh.triangle_count
         self.surface_tolerance = settings.surface_tolerance
-        self.largest = largest_coordinate(bounds or file.mesh.bounds)
-        self.geometry = core.Geometry(
-            file.mesh, file.health.solid, file.topology.plain_solid, is_open
-        )
+        self.largest = file.mesh.largest_coordinate
+        health = file.health
+        self.geometry = core.Geometry(file.mesh, health.solid, health.plain_solid, is_open)
         # None of these holds this object, so that it goes with its last body, not with a later
         # search for cycles.
         self.covers_once = Once(partial(_covers_once, self.geometry))

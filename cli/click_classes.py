@@ -10,8 +10,9 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.commands import DEFAULT_COMMAND, all_commands, command_named, is_command
+from satcheck.cli.formats import registry
 from satcheck.cli.output import Document
-from satcheck.scene.files.readers import add_others
+from satcheck.scene.files import readers
 
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 
@@ -66,7 +67,8 @@ class Command(click.Command):
 def _show_all(ctx: click.Context, option: click.Parameter, wanted: bool) -> None:
     if wanted:
         ctx.meta[_ALL] = True
-        add_others()
+        readers.add_others()
+        registry.add_others()
     _show_help(ctx, option, wanted)
 
 

@@ -19,7 +19,7 @@ from satcheck.cli.formats.registry import (
     formats,
 )
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.option import STANDARD_OUTPUT
+from satcheck.cli.option import STANDARD_OUTPUT, Told
 from satcheck.cli.output import Document, Page
 from satcheck.core.plugins import failures
 from satcheck.report.json import document as json_document
@@ -34,12 +34,17 @@ class Target(Struct, frozen=True):
     output: Path | None
 
 
-class _FormatChoice(click.Choice[str]):
+class FormatChoice(click.Choice[str]):
     """A name of a format, also one that another package registers."""
 
-    def __init__(self, kinds: tuple[Kind, ...], also: Iterable[str]) -> None:
-        super().__init__(dict.fromkeys([*formats(kinds), *also]))
+    def __init__(self, kinds: tuple[Kind, ...], also: Mapping[str, Format]) -> None:
         self._kinds = kinds
+        self._also = also
+        super().__init__([*self.known()])
+
+    def known(self) -> dict[str, Format]:
+        """Return the formats that are registered by now, by name."""
+        return {**formats(self._kinds), **self._also}
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         found = format_named(value)
@@ -57,11 +62,21 @@ def format_option(
 ) -> Callable[[Command], Command]:
     """Return the option --format of a command that writes formats of these kinds. also: further
     formats, and what this command means by a name."""
-    known = {**formats(kinds), **also}
-    about = ", ".join(f"{name} is {each.about}" for name, each in known.items() if each.about)
-    said = f"{', '.join(known)}{f'; {about}' if about else ''}.  [default: {default}]"
-    choice = _FormatChoice(kinds, also)
-    return click.option("--format", "form", type=choice, metavar="FORMAT", help=said)
+    choice = FormatChoice(kinds, also)
+
+    def tell() -> str:
+        known = choice.known().items()
+        about = ", ".join(f"{name} is {each.about}" for name, each in known if each.about)
+        names = ", ".join(_with_ending(name, each) for name, each in known)
+        return f"{names}{f'; {about}' if about else ''}.  [default: {default}]"
+
+    return click.option("--format", "form", cls=Told, tell=tell, type=choice, metavar="FORMAT")
+
+
+def _with_ending(name: str, known: Format) -> str:
+    """`markdown (.md)`; an ending that is the name is left out."""
+    others = [ending for ending in known.endings[:1] if ending != f".{name}"]
+    return f"{name} ({others[0]})" if others else name
 
 
 form_option = format_option(PLAIN, "json if the file of -o ends in .json, otherwise table")

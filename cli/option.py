@@ -62,6 +62,18 @@ def origin_of(name: str) -> str:
     return (ctx and origin(ctx, name)) or f"--{name.replace('_', '-')}"
 
 
+class Told(click.Option):
+    """An option whose help is told when it is shown: other packages may have registered by then."""
+
+    def __init__(self, names: Sequence[str], *, tell: Callable[[], str], **more: Any) -> None:
+        super().__init__(names, help=tell(), **more)
+        self.tell = tell
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        self.help = self.tell()
+        return super().get_help_record(ctx)
+
+
 class _Range:
     """A range of numbers, and what it says of others."""
 

@@ -11,7 +11,7 @@ from typing import Any, TypeVar, get_args
 
 import click
 
-from satcheck.cli.option import Whole, limits, together
+from satcheck.cli.option import Told, Whole, limits, together
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.files.readers import GEOMETRY, GeometryKind, OptionValue, option_named, options
 from satcheck.scene.opening import is_folder
@@ -25,14 +25,6 @@ def _about_read() -> str:
     spelled = sorted(option.spelling for option, _ in known if option is not GEOMETRY)
     named = f": {', '.join(spelled)}" if spelled else ""
     return f"An option of the readers of some formats{named}. Repeatable."
-
-
-class _Read(click.Option):
-    """Its help names the options of the readers that are registered by then."""
-
-    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        self.help = _about_read()
-        return super().get_help_record(ctx)
 
 
 def _read(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict[str, OptionValue]:
@@ -65,11 +57,11 @@ outside = click.option(
 read = click.option(
     "--read",
     "reading",
-    cls=_Read,
+    cls=Told,
+    tell=_about_read,
     multiple=True,
     metavar="NAME=VALUE",
     callback=_read,
-    help=_about_read(),
 )
 
 

@@ -40,3 +40,10 @@ class MeshHealth(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     double_sided: bool
     flat: bool
     solid: bool
+
+    @property
+    def plain_solid(self) -> bool:
+        """Return whether the mesh is one shell that was closed and wound outward as read."""
+        is_closed = self.closed and not self.cracks
+        is_one = self.components == 1 and self.manifold and self.oriented
+        return is_closed and is_one and self.volume > 0

@@ -11,7 +11,7 @@ from msgspec import Struct
 
 from satcheck._native.core import Mesh
 from satcheck.core.errors import SatcheckError
-from satcheck.core.worker import Worker, WorkerError
+from satcheck.core.worker_errors import WorkerError
 
 _SERVER: Final = "satcheck.core.manifold_server"
 
@@ -31,6 +31,8 @@ class VolumeMeter:
     """
 
     def __init__(self, *, seconds: float, megabytes: int) -> None:
+        from satcheck.core.worker import Worker
+
         self._seconds = seconds
         self._worker = Worker(_SERVER, megabytes=megabytes)
 

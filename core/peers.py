@@ -10,7 +10,7 @@ import msgspec
 from satcheck.core import Mesh
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import OverlapVolume, VolumeMeter
-from satcheck.core.worker import Worker, WorkerError
+from satcheck.core.worker_errors import WorkerError
 
 _FCL_SERVER: Final = "satcheck.core.fcl_server"
 
@@ -22,6 +22,8 @@ class Peers:
     """
 
     def __init__(self, *, seconds: float, megabytes: int, fcl_server: str = _FCL_SERVER) -> None:
+        from satcheck.core.worker import Worker
+
         self._seconds = seconds
         self._fcl = Worker(fcl_server, megabytes=megabytes)
         self._meter = VolumeMeter(seconds=seconds, megabytes=megabytes)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
-from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
+from satcheck.core import Mesh, largest_placed, largest_stretch
 from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_health import MeshHealth
 from satcheck.core.shapes import HalfSpace
@@ -41,8 +41,8 @@ class MeshFile(Struct, frozen=True):
     path: as given, with "/". sha256: of the file's bytes; None: not needed. format: "obj",
     "stl", "ply", "off", "glb", "gltf", "3mf" or "dae", or "shape": a primitive from the scene file
     at `path`. resolution: the precision of its coordinates, in file units. units: as the file
-    declares them. mesh: welded, and wound outward if its orientation can be decided. topology: of
-    the welded mesh, before it is oriented. issues: warnings about this file. part: the name of the
+    declares them. mesh: welded, and wound outward if its orientation can be decided. issues:
+    warnings about this file. part: the name of the
     mesh in the file, which then has its own coordinates; None: the whole file, placed as it says.
     outline: the corners, counter-clockwise, of the convex polygon over which the mesh is a prism,
     in a check in a plane. placement_step: the relative precision of its placement in the world, as
@@ -59,7 +59,6 @@ class MeshFile(Struct, frozen=True):
     resolution: float
     units: str | None
     mesh: Mesh
-    topology: Topology
     health: MeshHealth
     issues: tuple[Issue, ...]
     part: str | None = None
@@ -110,8 +109,7 @@ class Body(Struct, frozen=True):
     def resolution_world(self) -> float:
         """Precision of the world coordinates: the file's resolution, stretched by the transform,
         plus the precision of the placement."""
-        low, high = self.file.mesh.bounds
-        return resolution_in_world(self.file, self.transform, max(map(abs, (*low, *high))))
+        return resolution_in_world(self.file, self.transform, self.file.mesh.largest_coordinate)
 
     @property
     def facet_tolerance(self) -> float:

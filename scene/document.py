@@ -185,7 +185,7 @@ class Document(Struct, frozen=True, tag=True):
             raise Refused("empty-mesh", "empty mesh: nothing that the file places has triangles")
         if len(self.items) > 1 and len({item.path for item in self.items}) < len(self.items):
             raise Refused("reader-failed", "its reader gives two bodies one path")
-        if not {item.number for item in self.items}.issubset(range(len(self.parts))):
+        if not all(0 <= item.number < len(self.parts) for item in self.items):
             raise Refused("reader-failed", "its reader places a mesh that is not there")
 
 
@@ -215,7 +215,8 @@ def plain_ids(paths: Sequence[str]) -> list[str]:
     suffixes if only these differ. Paths to the same file get the same id.
     """
     same_stem: dict[str, dict[str, str]] = {}
-    places = list(map(os.path.abspath, paths))
+    here = os.getcwd()  # noqa: PTH109
+    places = [os.path.normpath(os.path.join(here, path)) for path in paths]  # noqa: PTH118
     for path, place in zip(paths, places, strict=True):
         same_stem.setdefault(name_of(path)[0] or path, {}).setdefault(place, path)
     ids: dict[str, str] = {}

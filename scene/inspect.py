@@ -22,7 +22,6 @@ from satcheck.core import (
     Inspection,
     Mesh,
     TooManySteps,
-    Topology,
     inspect,
     inspect_bytes,
     with_cracks_closed,
@@ -92,7 +91,7 @@ def mesh_file(
         examined = examine_bytes(raw.vertices, raw.triangles, resolution)
     else:
         examined = examine(mesh, resolution=resolution)
-    largest = _largest(examined.mesh)
+    largest = examined.mesh.largest_coordinate
     precision = file_resolution(raw, largest)
     far = far_vertex(raw, examined.mesh, largest, precision)
     said = [*raw.warnings, *examined.warnings, *([("far-vertex", far)] if far else [])]
@@ -103,7 +102,6 @@ def mesh_file(
         resolution=precision,
         units=raw.units,
         mesh=examined.mesh,
-        topology=examined.topology,
         health=examined.health,
         issues=tuple(issue(code, message, file=file.path) for code, message in said),
         part=part,
@@ -114,13 +112,7 @@ def mesh_file(
 
 def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
     """Return the precision of the coordinates of the mesh."""
-    return file_resolution(raw, _largest(mesh))
-
-
-def _largest(mesh: Mesh) -> float:
-    """Return the largest |coordinate|."""
-    low, high = mesh.bounds
-    return max(map(abs, (*low, *high)))
+    return file_resolution(raw, mesh.largest_coordinate)
 
 
 def shape_file(shape: Shape, path: str) -> MeshFile:
@@ -143,10 +135,9 @@ def shape_file(shape: Shape, path: str) -> MeshFile:
         path=path,
         sha256=hashlib.sha256(canonical.encode()).hexdigest(),
         format=SHAPE_FORMAT,
-        resolution=_largest(examined.mesh) * FLOAT64_STEP,
+        resolution=examined.mesh.largest_coordinate * FLOAT64_STEP,
         units=None,
         mesh=examined.mesh,
-        topology=examined.topology,
         health=examined.health,
         issues=(),
     )
@@ -175,7 +166,6 @@ def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
         file,
         sha256=hashlib.sha256(b"".join(mesh.to_bytes())).hexdigest(),
         mesh=examined.mesh,
-        topology=examined.topology,
         health=examined.health,
     )
 
@@ -183,11 +173,10 @@ def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
 class Examined(Struct, frozen=True):
     """A welded mesh and its health. The mesh is wound outward if its orientation can be decided.
 
-    topology: before the repair. warnings: (code, message).
+    warnings: (code, message).
     """
 
     mesh: Mesh
-    topology: Topology
     health: MeshHealth
     warnings: tuple[tuple[str, str], ...]
 
@@ -267,7 +256,7 @@ def _judged(inspection: Inspection) -> Examined:
         flat=not after.solid and inspection.mesh.is_flat(),
         solid=after.solid,
     )
-    return Examined(inspection.mesh, topology, health, tuple(_warnings(health, turned)))
+    return Examined(inspection.mesh, health, tuple(_warnings(health, turned)))
 
 
 def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:

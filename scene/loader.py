@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -367,12 +367,14 @@ class SceneBuilder:
         Groups of several files are different, even if they have the same name. Those of mesh files,
         buildings and stages are one group, unless rules of the file name the group.
         """
-        own = {group for rule in document.pairs if rule.of_groups for group in (rule.a, rule.b)}
         named = dict.fromkeys(group for item in document.items for group in item.groups)
-        prefix = f"{document.name}: " if document.robot else ""
         scene_file = _scene_file(document)
         if scene_file is not None:
             named |= dict.fromkeys(sorted(scene_file.ignore_within_groups))
+        if not named:
+            return {}
+        own = {group for rule in document.pairs if rule.of_groups for group in (rule.a, rule.b)}
+        prefix = f"{document.name}: " if document.robot else ""
         if prefix or scene_file is not None:
             own = {*named}
         groups = {}
@@ -388,7 +390,7 @@ class SceneBuilder:
     def _add(self, item: Item, own: Input) -> str:
         """Adds a body of this input and returns its id."""
         id_ = self._ids.unique(item.id)
-        path = own.path
+        path = own.document.path
         if item.entry is not None:
             self._entries[id_] = item.entry
             path = item.entry.file
@@ -404,7 +406,7 @@ class SceneBuilder:
             case exact:
                 # A report states it by its sizes, and no node of a file.
                 file, node = self._files.shape(exact, path), None
-        groups_here = tuple(own.groups[group] for group in item.groups)
+        groups_here = tuple(map(own.groups.__getitem__, item.groups))
         if isinstance(file, Refused):
             # A file of shapes has many bodies: the message is about the body, not the file.
             message = str(file) if exact is None else file.message
@@ -427,6 +429,7 @@ class SceneBuilder:
             surface_tolerance=item.surface_tolerance,
         )
         own.bodies.append(body)
+        own.readable.append(body)
         return id_
 
     def _in_other_file(self, item: Item, named: FilePart, own: str | None) -> Item:
@@ -457,8 +460,7 @@ class SceneBuilder:
         """Raises Refused if a rule has to be expanded into too many pairs."""
         common = in_one_unit(self._inputs)
         scene = self._bodies_and_files(common)
-        bodies = {body.id: body for each in self._inputs for body in each.readable}
-        robots = [_robot(each, bodies) for each in self._inputs if each.document.robot]
+        robots = [_robot(each) for each in self._inputs if each.document.robot]
         jointed = [
             (each.document, dict(_links(each)))
             for each in self._inputs
@@ -489,7 +491,7 @@ class SceneBuilder:
         return posed(scene, {}).reaching()
 
     def _bodies_and_files(self, common: InOneUnit) -> Scene:
-        inputs = [each for each in self._inputs if each.kind != "rules"]
+        inputs = [each for each in self._inputs if each.document.kind != "rules"]
         bodies = [body for each in inputs for body in each.readable]
         everyone = [body for each in inputs for body in each.bodies]
         lost = [body for body in everyone if isinstance(body, Unreadable)]
@@ -505,29 +507,24 @@ class SceneBuilder:
             bodies=common.bodies,
             unreadable=tuple(lost),
             order=tuple(body.id for body in everyone),
-            rules=tuple(rule for each in self._inputs for rule in _rules(each)),
+            rules=tuple(
+                rule for each in self._inputs if each.document.pairs for rule in _rules(each)
+            ),
             entries=self._entries,
             reading=self._files.allowed.options,
-            composed=any(each.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
+            composed=any(each.document.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
-        files = [each for each in self._inputs if _scene_file(each.document) is not None]
+        files = [(each, file) for each in self._inputs if (file := _scene_file(each.document))]
         if not files:
             return scene
         from satcheck.scene.scene_file.joined import Joined, joined
 
         stated = []
-        for each in files:
-            file = cast("SceneFile", each.document)
-            stated.append(
-                Joined(file, dict(_ids_of(each)), each.groups, common.scales.get(file.path, 1.0))
-            )
+        for each, file in files:
+            ids = dict(zip((item.id for item in file.items), each.ids, strict=True))
+            stated.append(Joined(file, ids, each.groups, common.scales.get(file.path, 1.0)))
         return joined(scene, stated, alone=len(inputs) == 1)
-
-
-def _ids_of(added: Input) -> Iterator[tuple[str, str]]:
-    """Ids in the document, and in the check."""
-    return zip((item.id for item in added.document.items), added.ids, strict=True)
 
 
 def _scene_file(document: Document) -> SceneFile | None:
@@ -539,13 +536,12 @@ def _scene_file(document: Document) -> SceneFile | None:
     return document if isinstance(document, SceneFile) else None
 
 
-def _robot(added: Input, bodies: Mapping[str, Body]) -> SceneRobot:
-    """bodies: that can be used, by id, as the file places them in their links."""
+def _robot(added: Input) -> SceneRobot:
     from satcheck.scene.robot import RobotBody, SceneRobot
 
     document = added.document
     assert document.robot is not None
-    own = []
+    own, bodies = [], {body.id: body for body in added.readable}
     for item, id_ in zip(document.items, added.ids, strict=True):
         placed = bodies[id_].transform if id_ in bodies else item.transform
         own.append(RobotBody(id_, item.link or "", placed or IDENTITY, item.groups))
@@ -580,7 +576,7 @@ def _rules(added: Input) -> Iterator[Rule]:
 
 def _unclear_axes(inputs: Sequence[Input], issues: Sequence[Issue]) -> Iterator[Issue]:
     """A mesh file whose axis nothing turns, beside one that names no axis."""
-    meshes = [each.path for each in inputs if each.kind == "mesh"]
+    meshes = [each.document.path for each in inputs if each.document.kind == "mesh"]
     stated = {issue.file for issue in issues if issue.code == "up-axis"}.intersection(meshes)
     for path in meshes if stated else ():
         reader = mesh_reader(suffix_of(path))
@@ -607,7 +603,8 @@ def _issues_of_files(bodies: Sequence[Body]) -> list[Issue]:
     """The warnings of each file once; with the id of the body if only one body uses the file."""
     users: dict[tuple[str, str | None], list[Body]] = {}
     for body in bodies:
-        users.setdefault((body.file.path, body.file.part), []).append(body)
+        if body.file.issues:
+            users.setdefault((body.file.path, body.file.part), []).append(body)
     return [
         _shared(warning, together)
         for together in users.values()

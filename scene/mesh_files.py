@@ -10,13 +10,12 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from functools import cached_property, partial
 from pathlib import Path
-from threading import Lock
+from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.core.errors import SatcheckError
 from satcheck.core.plugins import function_at
 from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
@@ -73,6 +72,7 @@ class MeshFiles:
         self._terms = allowed.key
         self._known = known
         self._made: dict[Hashable, Any] = {}
+        self._folder = os.getcwd()  # noqa: PTH109  the process stays there for this scene
 
     @cached_property
     def _children(self) -> ReadingChildren:
@@ -86,12 +86,15 @@ class MeshFiles:
 
     def document(self, path: str, location: StrPath, split: Split) -> Document | Refused:
         """Return the bodies of a file. path: its name in messages; location: on disk."""
-        key = _absolute(location), split
+        key = self._place(location), split
         load = partial(self._load, path, location, split)
         if self._known is not None:
             load = partial(self._known.recall, (path, key, *self._terms), load)
         made: Document | Refused = self._once(key, load)
         return made
+
+    def _place(self, location: StrPath) -> str:
+        return os.path.join(self._folder, location)  # noqa: PTH118  many bodies share a path
 
     def _once(self, key: Hashable, make: Callable[[], Any]) -> Any:
         """Return what `make` returns, or the Refused that it raises; both once."""
@@ -104,15 +107,17 @@ class MeshFiles:
 
     def _load(self, path: str, location: StrPath, split: Split) -> Document:
         with _reading(path, location), ErrorsOf(path):
-            file = open_file(path, location, required_reader, self.allowed, whole=split == "none")
-            reader = required_reader(suffix_of(location))
-            return document_of(file, self._read(reader, file, Document), split)
+            whole = split == "none"
+            reader, file = open_file(path, location, required_reader, self.allowed, whole=whole)
+            return document_of(file, self._read(reader, file, Document), split, reader.kind)
 
     def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
         """In this process, or in the child process, as its reader says. kind: of its documents."""
         if reader.here and file.size <= reader.here:
-            with suppress(NeedsChild):
+            try:
                 return reader.checked(function_at(reader.read)(file))
+            except NeedsChild:
+                pass
         if reader.by_name:
             file = replace(file, data=b"")
         made = read_in_child(file, reader.read, kind, self._children, self.allowed)
@@ -123,7 +128,7 @@ class MeshFiles:
         mark of a convex hull, which may also stand alone."""
         path, location, part = named.path, named.location, named.part
         if part is not None and part.endswith(HULL_MARK):
-            hull: Item = self._once((_absolute(location), part), partial(self._hull, named))
+            hull: Item = self._once((self._place(location), part), partial(self._hull, named))
             return hull
         split: Split = (
             "none" if part is None else "components" if COMPONENT_MARK in part else "nodes"
@@ -134,7 +139,7 @@ class MeshFiles:
         if part is None:
             return loaded.items[0]
         by_path: dict[str, Item] = self._once(
-            (_absolute(location), "by path", split),
+            (self._place(location), "by path", split),
             lambda: {item.path or "": item for item in loaded.items},
         )
         if part in by_path:
@@ -167,7 +172,7 @@ class MeshFiles:
 
     def issues_of_parts(self, location: StrPath) -> tuple[Issue, ...]:
         """Return the issues that concern no single part of a file whose parts are read."""
-        place = _absolute(location)
+        place = self._place(location)
         made = [self._made.get((place, split)) for split in ("nodes", "components")]
         return next((each.issues for each in made if isinstance(each, Document)), ())
 
@@ -185,19 +190,26 @@ class MeshFiles:
         releases the GIL.
         """
         waiting = {
-            _absolute(location): (path, location)
+            self._place(location): (path, location)
             for path, location in given
             if _is_read_here(location) and _is_large(location)
         }
         if len(waiting) < 2 or is_careful():
             return
-        from concurrent.futures import ThreadPoolExecutor
+        files = iter(waiting.values())
 
-        # Without a further thread the remaining files are read when they are used. An error of a
-        # file, too, is reported then.
-        with suppress(RuntimeError), ThreadPoolExecutor(os.cpu_count()) as pool:
-            for path, location in waiting.values():
-                pool.submit(self.document, path, location, "none")
+        def read() -> None:
+            for path, location in files:
+                with suppress(Exception):  # it is raised again when the file is used
+                    self.document(path, location, "none")
+
+        threads = [Thread(target=read) for _ in range(min(len(waiting), os.cpu_count() or 1))]
+        with suppress(RuntimeError):  # no further thread: the other files are read when used
+            for thread in threads:
+                thread.start()
+        for thread in threads:
+            if thread.ident is not None:
+                thread.join()
 
     def robot(
         self,
@@ -302,10 +314,6 @@ def _triangles(read: Document) -> int:
     return sum(100 + shape.mesh.triangle_count for shape in shapes if isinstance(shape, MeshFile))
 
 
-def _absolute(location: StrPath) -> str:
-    return os.path.join(os.getcwd(), location)  # noqa: PTH109, PTH118  many bodies share a path
-
-
 def _reading(path: str, location: StrPath) -> AbstractContextManager[None]:
     """Raises Refused if reading this file has ended the process before."""
     return _reading_again(path, location) if is_careful() else nullcontext()
@@ -332,6 +340,6 @@ def _is_read_here(location: StrPath) -> bool:
 
 def _is_large(location: StrPath) -> bool:
     try:
-        return size_of(location) >= LARGE_FILE_BYTES
-    except SatcheckError:  # reported when the file is used
+        return os.path.getsize(location) >= LARGE_FILE_BYTES  # noqa: PTH202
+    except (OSError, ValueError):  # reported when the file is used
         return False

@@ -109,7 +109,7 @@ OWN_FILE = Most(1 << 30, "the most for such a file: write less into it")
 _OF_MEMORY = " of the memory for one file (raise it with --limit megabytes=N)"
 
 
-class Permitted(Struct, frozen=True):
+class Permitted(Struct, frozen=True, dict=True):
     """A file may name what lies in its own folder, and in these folders, which are without links.
 
     anywhere: all other files too. megabytes: of memory for reading one.
@@ -119,7 +119,7 @@ class Permitted(Struct, frozen=True):
     anywhere: bool = False
     megabytes: int = DEFAULT_MEGABYTES_PER_FILE
 
-    @property
+    @cached_property
     def most(self) -> Most:
         """Return the limit of any file: reading a text takes about three times its size."""
         return self._share(4, "a quarter")
@@ -273,6 +273,14 @@ def signature(name: str) -> Signature:
     )
 
 
+def _is_plain_file(place: StrPath) -> bool:
+    """Return whether it is a file, and no link to one."""
+    try:
+        return stat.S_ISREG(os.lstat(place).st_mode)
+    except (OSError, ValueError):
+        return False
+
+
 class Context:
     """The files that one file may name.
 
@@ -305,16 +313,16 @@ class Context:
         own = (str(self.own), str(followed(Path(self._folder))), *self.permitted.folders)
         return tuple(folder.rstrip(os.sep) + os.sep for folder in own)
 
-    def permits(self, place: StrPath) -> bool:
+    def permits(self, place: StrPath, *, is_plain: bool = False) -> bool:
+        """Return whether the file may name this one. is_plain: it is known to be no link."""
         if self.permitted.anywhere:
             return True
         folder, name = os.path.split(place)
-        if name in ("", os.curdir, os.pardir) or os.path.islink(place):  # noqa: PTH114
+        if name in ("", os.curdir, os.pardir) or not (is_plain or _is_plain_file(place)):
             return f"{followed(Path(place))}{os.sep}".startswith(self._folders)
         if folder not in self._followed:
-            self._followed[folder] = str(followed(Path(folder)))
-        real = os.path.join(self._followed[folder], name, "")  # noqa: PTH118  many files lie there
-        return real.startswith(self._folders)
+            self._followed[folder] = str(followed(Path(folder))).rstrip(os.sep)
+        return f"{self._followed[folder]}{os.sep}{name}{os.sep}".startswith(self._folders)
 
     def refusal(
         self, what: str, advice: str = "refused (allow it with --allow-outside)"
@@ -331,9 +339,10 @@ class Context:
         is_tidy = "./" not in name and "//" not in name
         place = os.path.join(self._start, name) if is_tidy else str(Path(self._folder, name))  # noqa: PTH118
         note(place)
-        if not self.permits(place):
+        is_plain = _is_plain_file(place)
+        if not self.permits(place, is_plain=is_plain):
             raise self.refusal(what)
-        if not is_file(place):
+        if not is_plain and not is_file(place):
             raise no_file(place, f"{what} ") or Refused("missing-resource", f"{what} is missing")
         return place
 
@@ -426,6 +435,7 @@ _WIDE_MARKS = (
     (codecs.BOM_UTF16_LE, "utf-16-le"),
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
+_ANY_MARK = (codecs.BOM_UTF8, *(mark for mark, _ in _WIDE_MARKS))
 
 LARGE_FILE_BYTES = 1_000_000  # larger files get their own thread and are read in pieces
 _STL_HEADER_BYTES = 84
@@ -460,6 +470,7 @@ _FIRST_WORDS = (
 )
 _FIRST_WORD = re.compile(rb"(?:\s*+#[^\r\n]*+)*+\s*+([^\s]++)")  # that is no comment
 _TEXT_HEAD_BYTES = 4096
+_READ = os.O_RDONLY | getattr(os, "O_BINARY", 0)  # `FileIO` takes twice as long
 _BINARY_PLY = b"\nformat binary"
 
 
@@ -528,8 +539,9 @@ def open_file(
     allowed: ReadLimits,
     *,
     whole: bool = False,
-) -> File:
-    """Return a mesh file as its reader takes it. Raises Refused, without a file name.
+) -> tuple[Reader, File]:
+    """Return the reader of a mesh file, and the file as it takes it. Raises Refused, without a file
+    name.
 
     path: its name in messages and reports. location: on disk. find: returns the reader of a suffix,
     or raises Refused. Of a large binary STL file whose SHA-256 is not wanted only the first bytes
@@ -554,7 +566,7 @@ def open_file(
         message = f"not of format {reader.title}: its content is {content}"
         raise Refused("format-mismatch", message)
     folder, name = os.path.split(location)
-    return File(
+    return reader, File(
         reader.name,
         folder or os.curdir,
         name,
@@ -576,15 +588,18 @@ def _read(
     Refused."""
     most.refuse_beyond(size)
     try:
-        with FileIO(location) as file:
+        file = os.open(location, _READ)
+        try:
             if in_pieces and size >= LARGE_FILE_BYTES:
-                head = file.read(_TEXT_HEAD_BYTES)
+                head = read_file(file, _TEXT_HEAD_BYTES)
                 if _is_binary_stl(size, head):
                     return size, head
-                file.seek(0)
-            data = read_file(file.fileno(), size)
-            if more := file.read(1):
-                data += more + read_file(file.fileno(), most.size - len(data))
+                os.lseek(file, 0, os.SEEK_SET)
+            data = read_file(file, size)
+            if more := os.read(file, 1):
+                data += more + read_file(file, most.size - len(data))
+        finally:
+            os.close(file)
     except OSError as error:
         raise _unreadable(error) from None
     most.refuse_beyond(len(data))
@@ -593,6 +608,8 @@ def _read(
 
 def _without_mark(data: bytes) -> bytes:
     """Converts text with a byte order mark to UTF-8 without one."""
+    if not data.startswith(_ANY_MARK):
+        return data
     if data.startswith(codecs.BOM_UTF8):
         return data[len(codecs.BOM_UTF8) :]
     for mark, encoding in _WIDE_MARKS:
@@ -617,8 +634,8 @@ def _other_content(reader: Reader, data: bytes, *, is_stl: bool) -> str | None:
 
 
 def _is_binary_stl(size: int, data: bytes) -> bool:
-    count = int.from_bytes(data[_STL_COUNT], "little")
-    return count > 0 and size == _STL_HEADER_BYTES + _STL_FACET_BYTES * count
+    count, rest = divmod(size - _STL_HEADER_BYTES, _STL_FACET_BYTES)
+    return count > 0 and not rest and count == int.from_bytes(data[_STL_COUNT], "little")
 
 
 def _other_text(data: bytes) -> str | None:

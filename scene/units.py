@@ -130,7 +130,8 @@ class Input(Struct):
     """A document in the check.
 
     unit: meant by the units that it declares, or given for inputs that declare none; None: unknown.
-    groups: in the file -> in the check. ids: of its items in the check. bodies: of these items.
+    groups: in the file -> in the check. ids: of its items in the check. bodies: of these items,
+    and readable: those of them that can be used.
     """
 
     document: Document
@@ -138,18 +139,7 @@ class Input(Struct):
     groups: Mapping[str, str]
     ids: list[str] = []
     bodies: list[Body | Unreadable] = []
-
-    @property
-    def kind(self) -> Kind:
-        return self.document.kind
-
-    @property
-    def path(self) -> str:
-        return self.document.path
-
-    @property
-    def readable(self) -> list[Body]:
-        return [body for body in self.bodies if isinstance(body, Body)]
+    readable: list[Body] = []
 
 
 class InOneUnit(Struct, frozen=True):
@@ -175,9 +165,11 @@ def in_one_unit(inputs: Sequence[Input]) -> InOneUnit:
     there are several, the smallest is taken, because the factors of the others are then usually
     whole numbers.
     """
-    of_rules = next((each.unit for each in inputs if each.kind == "rules" and each.unit), None)
+    of_rules = next(
+        (each.unit for each in inputs if each.document.kind == "rules" and each.unit), None
+    )
     for source in inputs:
-        if source.kind != "rules" and source.unit is None:
+        if source.document.kind != "rules" and source.unit is None:
             source.unit = _inferred(source.readable, of_rules)
     unit = _common(inputs) or of_rules
     owned = [
@@ -187,12 +179,12 @@ def in_one_unit(inputs: Sequence[Input]) -> InOneUnit:
     ]
     bodies = tuple(body for _, body in owned)
     scales = {
-        source.path: ratio(source.unit, unit)
+        source.document.path: ratio(source.unit, unit)
         for kind in ("scene", "rules")
         for source in inputs
-        if source.kind == kind and source.unit and unit
+        if source.document.kind == kind and source.unit and unit
     }
-    in_turn = sorted(inputs, key=lambda each: each.kind == "rules")
+    in_turn = sorted(inputs, key=lambda each: each.document.kind == "rules")
     declared = [each.document.units for each in in_turn]
     issues = (*_conversions(owned), *_unknown(owned, inputs))
     return InOneUnit(bodies, unit, _label(bodies, declared, unit), scales, issues)
@@ -209,7 +201,7 @@ def _common(inputs: Iterable[Input]) -> str | None:
     units: dict[Kind, set[str]] = {}
     for source in inputs:
         if source.unit is not None:
-            units.setdefault(source.kind, set()).add(source.unit)
+            units.setdefault(source.document.kind, set()).add(source.unit)
     kind = next((kind for kind in ("robot", "scene", "mesh") if kind in units), None)
     return min(units[kind], key=MICROMETRES.__getitem__) if kind else None
 
@@ -262,7 +254,7 @@ def _conversions(owned: Iterable[tuple[Input, Body]]) -> list[Issue]:
     files: dict[tuple[float, str], dict[str, None]] = {}
     for source, body in owned:
         if body.unit_scale is not None and body.units is not None:
-            path = body.file.path if body.file.units else source.path
+            path = body.file.path if body.file.units else source.document.path
             files.setdefault((body.unit_scale, body.units), {})[path] = None
     notes = []
     for (scale, unit), paths in files.items():
@@ -278,11 +270,16 @@ def _unknown(owned: Sequence[tuple[Input, Body]], inputs: Sequence[Input]) -> li
     if len({body.units for _, body in owned}) < 2:
         return []
     unsaid = next(
-        (source.path for source in inputs if source.kind == "scene" and source.unit is None), None
+        (
+            source.document.path
+            for source in inputs
+            if source.document.kind == "scene" and source.unit is None
+        ),
+        None,
     )
     files: dict[str | None, dict[str, None]] = {}
     for source, body in owned:
-        path = body.file.path if source.path == unsaid else source.path
+        path = body.file.path if source.document.path == unsaid else source.document.path
         files.setdefault(body.units, {})[path] = None
     unstated = list(files.pop(None, {})) or [unsaid or ""]
     known = " and ".join(f"{listed(list(paths))} in {unit}" for unit, paths in files.items())

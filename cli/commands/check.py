@@ -264,7 +264,7 @@ def command(
 def _collect_garbage(scene: Scene) -> None:
     """From here on, unless the check is small."""
     if len(scene.bodies) > SMALL_BODIES or any(
-        body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
+        body.file.health.triangles > SMALL_TRIANGLES for body in scene.bodies
     ):
         gc.enable()
         gc.set_threshold(COLLECT_AFTER)

@@ -10,6 +10,9 @@ from msgspec import Struct
 
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.config import options_of_commands
+from satcheck.cli.format_option import FormatChoice
+from satcheck.cli.formats import registry
+from satcheck.cli.option import Told
 from satcheck.cli.output import Document
 from satcheck.report.assets import AssetsReport, Result
 from satcheck.report.axes import AxesReport
@@ -21,6 +24,7 @@ from satcheck.report.schema import schema_of
 from satcheck.report.suggestions import SuggestionsReport
 from satcheck.report.tradeoff import TradeoffReport
 from satcheck.report.verification import VerificationReport
+from satcheck.scene.files import readers
 from satcheck.scene.units import LENGTH_PATTERN
 
 STRUCTS: dict[str, type[Struct]] = {
@@ -62,6 +66,9 @@ def text(name: str = "report") -> str:
 
 
 def _of_config() -> str:
+    """The options, also those of the readers and formats of other packages."""
+    readers.add_others()
+    registry.add_others()
     properties = {key: _property(option) for key, option in options_of_commands().items()}
     document = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -74,7 +81,8 @@ def _of_config() -> str:
 
 
 def _property(option: click.Option) -> dict[str, Any]:
-    described = {"description": " ".join((option.help or "").split("[default")[0].split())}
+    told = option.tell() if isinstance(option, Told) else option.help or ""
+    described = {"description": " ".join(told.split("[default")[0].split())}
     if option.is_flag:
         return {"type": "boolean", **described}
     if option.nargs > 1:
@@ -88,6 +96,8 @@ def _property(option: click.Option) -> dict[str, Any]:
 
 
 def _kind(kind: click.ParamType[Any]) -> dict[str, Any]:
+    if isinstance(kind, FormatChoice):
+        return {"enum": [*kind.known()]}
     if isinstance(kind, click.Choice):
         return {"enum": list(kind.choices)}
     if isinstance(kind, click.IntRange | click.FloatRange):

@@ -121,9 +121,14 @@ def _first(is_meant: Callable[[Format], bool]) -> Format | None:
     """Other packages are asked last."""
     found = next(filter(is_meant, _registry().values()), None)
     if found is None:
-        _add(_registry(), others("formats", (Format,)))
+        add_others()
         found = next(filter(is_meant, _registry().values()), None)
     return found
+
+
+def add_others() -> None:
+    """Register the formats of other packages, which takes as long as a small check."""
+    _add(_registry(), others("formats", (Format,)))
 
 
 def _add(registry: dict[str, Format], new: Iterable[Format]) -> None:

@@ -68,7 +68,7 @@ def read_gltf(file: File) -> Document:
         scene = reader.colliders(colliders)
     else:
         scene = reader.read()
-        if any(map(colliders.has, range(len(document.nodes)))):
+        if colliders:
             message = "meshes are checked, and no colliders (--geometry collision checks them)"
             if geometry is None:
                 unknown.note(("colliders", ""), message)

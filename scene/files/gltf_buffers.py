@@ -82,7 +82,8 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
     if length != len(data):
         code = "truncated" if length > len(data) else "trailing-data"
         raise Refused(code, f"the header promises {length} bytes, the file has {len(data)} bytes")
-    chunks: list[tuple[int, memoryview]] = []
+    kinds: list[int] = []
+    chunks: list[memoryview] = []
     offset = _GLB_HEADER.size
     while offset < length:
         start = offset + _CHUNK_HEADER.size
@@ -93,14 +94,15 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
             message = f"chunk length {size} exceeds the file, which has {length - start} bytes left"
             raise Refused("truncated", f"byte {offset}: {message}")
         offset = start + size
-        chunks.append((kind, data[start:offset]))
-    if not chunks or chunks[0][0] != _JSON_CHUNK:
+        kinds.append(kind)
+        chunks.append(data[start:offset])
+    if kinds[:1] != [_JSON_CHUNK]:
         raise Refused("bad-record", "the first chunk of the GLB file is not JSON")
-    for kind, name, place in ((_JSON_CHUNK, "JSON", 0), (_BIN_CHUNK, "binary", 1)):
-        # Others are harmless: extensions name them (the glTF 2.0 specification, 4.4.3).
-        if [number for number, (each, _) in enumerate(chunks) if each == kind] not in ([], [place]):
+    # Others are harmless: extensions name them (the glTF 2.0 specification, 4.4.3).
+    for kind, name, rest in ((_JSON_CHUNK, "JSON", kinds[1:]), (_BIN_CHUNK, "binary", kinds[2:])):
+        if kind in rest:
             raise Refused("bad-record", f"a {name} chunk of the GLB file is out of place")
-    return chunks[0][1], dict(chunks).get(_BIN_CHUNK)
+    return chunks[0], chunks[1] if kinds[1:2] == [_BIN_CHUNK] else None
 
 
 class Accessors:

@@ -88,20 +88,23 @@ class Colliders:
     def __init__(self, document: GltfDocument, unknown: UnknownNames) -> None:
         self._document = document
         self._unknown = unknown
-        self._bodies = [
-            {name: node.extensions[name] for name in _BODIES if name in node.extensions}
-            for node in document.nodes
-        ]
-        for number, bodies in enumerate(self._bodies):
-            for name, body in bodies.items():
-                unknown.look(PLACES["rigid body"], body.keys(), name, f"node {number}")
+        self._bodies: dict[int, dict[str, dict[str, Any]]] = {}
+        for number, node in enumerate(document.nodes):
+            for name in _BODIES:
+                if name in node.extensions:
+                    body = node.extensions[name]
+                    unknown.look(PLACES["rigid body"], body.keys(), name, f"node {number}")
+                    self._bodies.setdefault(number, {})[name] = body
+
+    def __bool__(self) -> bool:
+        return any(map(self.has, self._bodies))
 
     def has(self, number: int) -> bool:
-        return any("collider" in body for body in self._bodies[number].values())
+        return any("collider" in body for body in self._bodies.get(number, {}).values())
 
     def moves(self, number: int) -> bool:
         """Say whether the node is a rigid body, whose colliders move together."""
-        return any("motion" in body for body in self._bodies[number].values())
+        return any("motion" in body for body in self._bodies.get(number, {}).values())
 
     def of(self, number: int) -> Collider:
         """The collider of a node that has one; a Refusal if it cannot be used."""

@@ -74,7 +74,8 @@ class Table(Generic[Object]):
         return len(self._made)
 
     def __iter__(self) -> Iterator[Object]:
-        return map(self.__getitem__, range(len(self._made)))
+        for number, made in enumerate(self._made):
+            yield made or self[number]
 
     def __getitem__(self, number: int) -> Object:
         if type(number) is int and 0 <= number < len(self._made):
@@ -422,9 +423,10 @@ def _look(given: Any, kind: str, place: str, unknown: UnknownNames) -> None:
         for name in PLACES.keys() & extensions.keys():
             _look(extensions[name], name, f"{place}: {name}", unknown)
     for key, inner, said in _INSIDE.get(kind, ()):
-        value = given.get(key, ())
-        for each in value if isinstance(value, list | tuple) else [value]:
-            _look(each, inner, place + said, unknown)
+        if key in given:
+            value = given[key]
+            for each in value if isinstance(value, list) else [value]:
+                _look(each, inner, place + said, unknown)
 
 
 def read_document(data: memoryview, unknown: UnknownNames) -> GltfDocument:

@@ -32,7 +32,7 @@ def read_native(file: File) -> Document:
         decimals=outcome.decimals,
         significant=outcome.significant,
         rounding=outcome.rounding,
-        warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
+        warnings=outcome.warnings,
     )
     objects = [] if file.whole else outcome.objects()
     if outcome.several_groups and len(objects) < 2 and not file.whole:

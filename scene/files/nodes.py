@@ -26,7 +26,7 @@ from satcheck.scene.document import (
 )
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
-from satcheck.scene.files.readers import File, reader_named
+from satcheck.scene.files.readers import File
 from satcheck.scene.inspect import CRACK_WIDTH, ErrorsOf, mesh_file, resolution_of
 from satcheck.scene.issue import BLOCKING, issue
 from satcheck.scene.opening import name_of
@@ -43,8 +43,9 @@ _SHAPES = "it has exact shapes, which no mesh holds: name one part of the file"
 _SPLIT = "check its nodes as bodies of their own (--split nodes), or split the file"
 
 
-def document_of(file: File, read: Document, split: Split) -> Document:
-    """Return the bodies of a file, with each distinct mesh inspected once. read: by its reader.
+def document_of(file: File, read: Document, split: Split, kind: str) -> Document:
+    """Return the bodies of a file, with each distinct mesh inspected once. read: by its reader,
+    which is of this kind.
 
     Components are edge-connected, after cracks are closed. They are numbered by their lowest
     corners, so that the order of the triangles in the file does not matter. Raises Refused if
@@ -55,10 +56,8 @@ def document_of(file: File, read: Document, split: Split) -> Document:
         made = Document(items=(Item(mesh),), units=mesh.units)
     else:
         made = _inspected(file, read, apart=split == "components")
-    reader = reader_named(file.format)
-    is_scene = reader is not None and reader.kind == "document"
     name = name_of(file.path)[0] or file.path
-    return replace(made, path=file.path, name=name, kind="scene" if is_scene else "mesh")
+    return replace(made, path=file.path, name=name, kind="scene" if kind == "document" else "mesh")
 
 
 def _inspected(file: File, read: Document, *, apart: bool) -> Document:

@@ -166,6 +166,12 @@ std::variant<nb::bytes, ReadError> cut_polygons(const nb::bytes& vertices, const
   return to_bytes(mesh.triangles);
 }
 
+nb::typed<nb::tuple, nb::typed<nb::tuple, nb::str, nb::str>, nb::ellipsis> warnings_of(const MeshData& mesh) {
+  nb::list pairs;
+  for (const Warning& warning : mesh.warnings) pairs.append(nb::make_tuple(warning.code, warning.message));
+  return nb::tuple(pairs);
+}
+
 const char* number_format_name(const MeshData& mesh) {
   switch (mesh.number_format) {
     case NumberFormat::written_digits: return "written-digits";
@@ -182,10 +188,6 @@ void bind_readers(nb::module_& m);
 }
 
 void satcheck::bind_readers(nb::module_& m) {
-  nb::class_<Warning>(m, "Warning", "A part of the file that the reader skipped, with a stable code.")
-      .def_ro("code", &Warning::code)
-      .def_ro("message", &Warning::message);
-
   nb::class_<MeshData>(m, "MeshData", "A mesh as in the file, in file units; all coordinates are finite.")
       .def_prop_ro("vertices", [](nb::handle self) { return view(nb::cast<const MeshData&>(self).vertices, self); },
                    "Little-endian float64 x, y, z of each vertex.")
@@ -198,7 +200,7 @@ void satcheck::bind_readers(nb::module_& m) {
               "Most significant digits in a coordinate written with an exponent.")
       .def_ro("rounding", &MeshData::rounding,
               "How far a coordinate may be off that the file stores as an integer: half a unit; else 0.")
-      .def_ro("warnings", &MeshData::warnings)
+      .def_prop_ro("warnings", &warnings_of, "(code, message) of each part of the file that the reader skipped.")
       .def_ro("several_groups", &MeshData::several_groups)
       .def("objects", [](const MeshData& mesh) {
         std::vector<Object> objects;

@@ -181,7 +181,6 @@ def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
         resolution=body.resolution_world + deviation,
         deviation=deviation,
         mesh=examined.mesh,
-        topology=examined.topology,
         health=examined.health,
         outline=None if corners is None else tuple(map(tuple, corners.tolist())),
     )

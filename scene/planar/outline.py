@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta, Struct, ValidationError, convert
 from msgspec.structs import force_setattr
 
-from satcheck._native.readers import ReadError, cut_polygons
 from satcheck.core import Mesh
 from satcheck.core.shapes import Primitive
 from satcheck.scene.table import Number
 
 if TYPE_CHECKING:
-    from satcheck.scene.planar.region import Floats, Indices
+    from satcheck.scene.planar.region import Floats
 
 Point = tuple[Number, Number]
 Points = Annotated[tuple[Point, ...], Meta(min_length=3, extra_json_schema={"uniqueItems": True})]
@@ -43,8 +42,14 @@ class Outline(Struct, frozen=True, forbid_unknown_fields=True, tag_field="type",
         """A sheet that covers the polygon. No corner is added, moved or left out."""
         import numpy as np
 
-        corners, triangles = _cut(self.points)
-        vertices = np.column_stack((corners, np.zeros(len(corners))))
+        from satcheck.scene.files.polygons import triangles_of
+        from satcheck.scene.planar.region import turns
+
+        corners, count = _floats(self.points), len(self.points)
+        vertices = np.column_stack((corners, np.zeros(count)))
+        triangles = triangles_of(vertices, range(count), [count])
+        if not (turns(corners, triangles) > 0).all():
+            raise ValueError("the outline is too thin to be cut into triangles")
         return Mesh(vertices, triangles.astype(np.uint32))
 
 
@@ -98,26 +103,6 @@ def _in_order(points: tuple[Point, ...]) -> tuple[Point, ...]:
     if turns(_floats((others[-1], start, others[0])), fan_of(3))[0] < 0:
         others.reverse()
     return (start, *others)
-
-
-def _cut(points: tuple[Point, ...]) -> tuple[Floats, Indices]:
-    """The corners, (n, 2), and triangles between them whose boundary is the polygon."""
-    import numpy as np
-
-    from satcheck.scene.planar.region import turns
-
-    corners = _floats(points)
-    cut = cut_polygons(
-        np.column_stack((corners, np.zeros(len(corners)))).tobytes(),
-        np.arange(len(corners), dtype="<u4").tobytes(),
-        np.array([len(corners)], dtype="<u4").tobytes(),
-    )
-    if isinstance(cut, ReadError):
-        raise ValueError(cut.message)
-    triangles = np.frombuffer(cut, "<u4").astype(np.int64).reshape(-1, 3)
-    if not (turns(corners, triangles) > 0).all():
-        raise ValueError("the outline is too thin to be cut into triangles")
-    return corners, triangles
 
 
 def _floats(points: tuple[Point, ...]) -> Floats:

@@ -194,15 +194,20 @@ def test_it_is_in_the_help_of_all_options_and_in_the_schema(
     tmp_path: Path, env: dict[str, str]
 ) -> None:
     """The short help does not load the readers of other packages."""
+    module = Path(env["PYTHONPATH"]) / "tetra.py"
+    module.write_text(module.read_text().replace('(".verdicts",)', '(".vdt",)'))
 
     def run(*words: str) -> str:
         return "".join(satcheck(*words, cwd=tmp_path, env=env).out.split())
 
-    for name in ("TETRA", "tetra-scale"):
+    for name in ("TETRA", "tetra-scale", "verdicts(.vdt)"):
         assert (name in run("--help"), name in run("--help-all")) == (False, True)
     assert "tetra-scale" in run("batch", "--help-all")
     schema = json.loads(run("schema", "scene"))
     assert schema["$defs"]["Reading"]["properties"]["tetra_scale"]["exclusiveMinimum"] == 0
+    config = json.loads(run("schema", "config"))["properties"]
+    assert "verdicts" in config["format"]["enum"]
+    assert "tetra-scale" in config["read"]["description"]
 
 
 def test_results_of_another_state_of_it_are_not_kept(tmp_path: Path, env: dict[str, str]) -> None:

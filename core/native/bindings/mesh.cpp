@@ -8,6 +8,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <stdexcept>
@@ -154,6 +155,13 @@ when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing 
                      for (const Vec3& p : mesh.vertices) box.include(p);
                      return std::make_tuple(to_tuple(box.min), to_tuple(box.max));
                    })
+      .def_prop_ro("largest_coordinate",
+                   [](const Mesh& mesh) {
+                     double largest = 0;
+                     for (const Vec3& p : mesh.vertices) largest = std::fmax(largest, max_abs(p));
+                     return largest;
+                   },
+                   "The largest |coordinate|; 0.0 of an empty mesh.")
       .def_prop_ro("vertices",
                    [](nb::handle self) {
                      return rows_view<double>(nb::cast<const Mesh&>(self).vertices, self);
@@ -246,8 +254,7 @@ void bind_topology(nb::module_& m) {
   nb::class_<Topology>(m, "Topology",
                        R"(Counts and facts of a mesh. closed: no boundary edge, every edge an even number of triangles. manifold: two
 triangles at every edge. oriented: neighbours agree on the winding. volume: signed, 0.0 when not closed.
-solid: closed, oriented and of non-zero volume, so that it has an inside. plain_solid: one shell, closed, manifold,
-oriented and wound outward, so that inspect() leaves its winding alone.)")
+solid: closed, oriented and of non-zero volume, so that it has an inside.)")
       .def_ro("vertices", &Topology::vertices)
       .def_ro("triangles", &Topology::triangles)
       .def_ro("components", &Topology::components)
@@ -256,12 +263,10 @@ oriented and wound outward, so that inspect() leaves its winding alone.)")
       .def_ro("misoriented_edges", &Topology::misoriented_edges)
       .def_ro("degenerate_triangles", &Topology::degenerate_triangles)
       .def_ro("duplicate_triangles", &Topology::duplicate_triangles)
-      .def_ro("unreferenced_vertices", &Topology::unreferenced_vertices)
       .def_ro("closed", &Topology::closed)
       .def_ro("manifold", &Topology::manifold)
       .def_ro("oriented", &Topology::oriented)
       .def_ro("volume", &Topology::volume)
-      .def_prop_ro("plain_solid", &Topology::is_plain_solid)
       .def_ro("solid", &Topology::solid);
   nb::class_<Inspection>(m, "Inspection", R"(The result of inspect(). mesh: welded, oriented, in an order that depends on coordinates alone. turned: orienting
 changed the mesh. cracks: the number of closed cracks. topology: before these repairs; repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), file units, or None.)")

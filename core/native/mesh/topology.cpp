@@ -59,11 +59,6 @@ std::vector<Vec3> without_negative_zeros(std::vector<Vec3> points) {
   return points;
 }
 
-struct Welding {
-  Mesh mesh;
-  std::size_t unreferenced_vertices = 0;
-};
-
 // 0 or 1 for each vertex. Bytes, because setting a bit would have to read its neighbours.
 std::vector<unsigned char> find_referenced(MeshView mesh) {
   std::vector<unsigned char> referenced(mesh.vertices.size(), 0);
@@ -71,34 +66,6 @@ std::vector<unsigned char> find_referenced(MeshView mesh) {
     for (const std::uint32_t v : t) referenced[v] = 1;
   }
   return referenced;
-}
-
-Welding weld_and_count(const Mesh& mesh) {
-  Welding result;
-  const std::vector<unsigned char> referenced = find_referenced(mesh);
-  std::vector<Vec3> points = without_negative_zeros(mesh.vertices);
-  if (strictly_ascending(points) && std::find(referenced.begin(), referenced.end(), 0) == referenced.end()) {
-    result.mesh = {std::move(points), mesh.triangles};
-    return result;
-  }
-  const std::vector<std::uint32_t> first = first_of_equal(points);
-  std::vector<bool> kept(points.size(), false);
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (referenced[v]) kept[first[v]] = true;
-  }
-  std::vector<std::uint32_t> renumbered(points.size(), none);
-  for (std::uint32_t v = 0; v < points.size(); ++v) {
-    if (!referenced[v]) ++result.unreferenced_vertices;
-    if (!kept[v]) continue;
-    renumbered[v] = static_cast<std::uint32_t>(result.mesh.vertices.size());
-    result.mesh.vertices.push_back(points[v]);
-  }
-  result.mesh.triangles.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    result.mesh.triangles.push_back(
-        {renumbered[first[t[0]]], renumbered[first[t[1]]], renumbered[first[t[2]]]});
-  }
-  return result;
 }
 
 void count_edges(Topology& topology, const EdgeTable& edges) {
@@ -174,7 +141,31 @@ bool is_welded(const Mesh& mesh) {
   return true;
 }
 
-Mesh weld(const Mesh& mesh) { return weld_and_count(mesh).mesh; }
+Mesh weld(const Mesh& mesh) {
+  const std::vector<unsigned char> referenced = find_referenced(mesh);
+  std::vector<Vec3> points = without_negative_zeros(mesh.vertices);
+  if (strictly_ascending(points) && std::find(referenced.begin(), referenced.end(), 0) == referenced.end()) {
+    return {std::move(points), mesh.triangles};
+  }
+  Mesh result;
+  const std::vector<std::uint32_t> first = first_of_equal(points);
+  std::vector<bool> kept(points.size(), false);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (referenced[v]) kept[first[v]] = true;
+  }
+  std::vector<std::uint32_t> renumbered(points.size(), none);
+  for (std::uint32_t v = 0; v < points.size(); ++v) {
+    if (!kept[v]) continue;
+    renumbered[v] = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.push_back(points[v]);
+  }
+  result.triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    result.triangles.push_back(
+        {renumbered[first[t[0]]], renumbered[first[t[1]]], renumbered[first[t[2]]]});
+  }
+  return result;
+}
 
 Mesh sort(const Mesh& mesh) {
   Mesh result;
@@ -205,11 +196,9 @@ Mesh weld_and_sort(MeshView mesh) {
 }
 
 Topology measure_topology(const Mesh& mesh) {
-  const Welding welding = weld_and_count(mesh);
-  const EdgeTable edges(welding.mesh.vertices.size(), welding.mesh.triangles);
-  Topology topology = measure_welded(welding.mesh, edges);
+  const Mesh welded = weld(mesh);
+  Topology topology = measure_welded(welded, EdgeTable(welded.vertices.size(), welded.triangles));
   topology.vertices = mesh.vertices.size();
-  topology.unreferenced_vertices = welding.unreferenced_vertices;
   return topology;
 }
 

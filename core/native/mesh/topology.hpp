@@ -19,7 +19,6 @@ struct Topology {
   std::size_t misoriented_edges = 0;    // not run equally often in both directions (open edges: once)
   std::size_t degenerate_triangles = 0; // corners exactly collinear or repeated
   std::size_t duplicate_triangles = 0;  // same corners as an earlier triangle, in either winding
-  std::size_t unreferenced_vertices = 0;
   bool closed = false;    // every edge has an even number of triangles, and there is an edge
   bool manifold = false;  // every edge has exactly two
   bool oriented = false;  // no misoriented edge

@@ -27,7 +27,6 @@ def body(id_: str, mesh: Mesh, form: str = "off") -> Body:
         resolution=0.0,
         units=None,
         mesh=examined.mesh,
-        topology=examined.topology,
         health=examined.health,
         issues=(),
     )
