@@ -252,6 +252,7 @@ def check_pair(
     pose_b: Sequence[float] | None,
     query: str,
     method: str,
+    enough: float,
 ) -> PairResult: ...
 def compare_signed_distance(
     a: Shape,
