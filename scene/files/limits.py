@@ -8,10 +8,10 @@ from satcheck.scene.errors import Refused
 BYTES_PER_MEGABYTE = 1 << 20
 
 # Instances multiply: a dozen nested components can expand to 10^12 instances or triangles.
-MAX_PLACEMENTS = 1_000_000
+MAX_PLACEMENTS = 200_000
 MAX_TRIANGLES = 50_000_000
 MAX_VERTICES = 3 * MAX_TRIANGLES
-MAX_WITHOUT_DATA = 1_000_000  # elements of accessors of glTF that the file does not hold
+MAX_WITHOUT_DATA = 100_000  # elements of accessors of glTF that the file does not hold
 MAX_DEPTH = 200  # of elements in XML and keys in TOML; no program nests deeper
 
 # Our own code reads glTF and checks every range. Its JSON can cost a few tens of times its size.
