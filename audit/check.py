@@ -12,7 +12,7 @@ from msgspec import UNSET, UnsetType
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
-from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs
+from satcheck.audit.checked_pairs import CheckedPair, Progress, StepsOfScene, examine_pairs
 from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.effects import effects_of
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
 DEFAULT_SETTINGS = Settings()
 
 # The most close pairs that are examined together.
-BLOCK = 100_000
+BLOCK = 50_000
 
 
 def check(
@@ -243,7 +243,7 @@ def _examined(
     pairs: list[IndexPair] = []
     examined: list[CheckedPair] = []
     failures = 0
-    blocks = close.blocks(BLOCK)
+    budget, blocks = StepsOfScene(), close.blocks(BLOCK)
     block, after = next(blocks, []), next(blocks, [])
     total = close.count() if after else len(block)
     while block and failures < ENOUGH_FAILURES:
@@ -252,7 +252,8 @@ def _examined(
             if progress is not None:
                 progress(before + done, total)
 
-        found = _examined_together(bodies, block, planner, movers, told, keep=keep or bool(after))
+        kept = keep or bool(after)
+        found = _examined_together(bodies, block, planner, movers, told, budget, keep=kept)
         pairs += block
         examined += found
         failures += sum(fails(pair.finding, planner.settings.fail_on) for pair in found)
@@ -269,6 +270,7 @@ def _examined_together(
     planner: Planner,
     movers: Movers | None,
     progress: Progress,
+    budget: StepsOfScene,
     *,
     keep: bool,
 ) -> list[CheckedPair]:
@@ -292,7 +294,7 @@ def _examined_together(
         ]
         if movers is not None:
             movers.add_sweeps(pairs)
-        return examine_pairs(pairs, settings.jobs, progress, keep=keep)
+        return examine_pairs(pairs, settings.jobs, progress, budget=budget, keep=keep)
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:

@@ -79,7 +79,7 @@ INTERNAL_ERROR = "internal-error"
 NOTHING_TO_CHECK = "nothing-to-check"
 # After so many findings that fail, the other close pairs are not examined: a kilobyte of instances
 # at one place has millions of them. An issue with this code says so.
-ENOUGH_FAILURES = 100_000
+ENOUGH_FAILURES = 50_000
 STOPPED_EARLY = "stopped-early"
 # The scene has no body that can collide.
 NOTHING_TO_COMPARE = "nothing-to-compare"

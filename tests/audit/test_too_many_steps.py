@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import NoReturn
 
@@ -118,6 +119,7 @@ def finding_within(
     steps: int, files: list[Path], settings: Settings, monkeypatch: pytest.MonkeyPatch
 ) -> Finding:
     """Return the finding of two files if the climb may take so many steps."""
-    monkeypatch.setattr(checked_pairs, "_steps_of", lambda _: steps)
+    given = type("Given", (), {"left": steps, "add": lambda *_: None})
+    monkeypatch.setattr(import_module("satcheck.audit.check"), "StepsOfScene", given)
     [finding] = check(load_scene(files), settings).findings
     return finding
