@@ -238,8 +238,8 @@ def _examined(
     keep: bool,
 ) -> tuple[list[IndexPair], list[CheckedPair], int]:
     """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, what is found of
-    each, and the number of close pairs after them. keep: later checks need the data of the
-    bodies."""
+    each, and the number of close pairs after them. A pair for which the steps of the scene do not
+    suffice counts as a failure. keep: later checks need the data of the bodies."""
     pairs: list[IndexPair] = []
     examined: list[CheckedPair] = []
     failures = 0
@@ -256,7 +256,8 @@ def _examined(
         found = _examined_together(bodies, block, planner, movers, told, budget, keep=kept)
         pairs += block
         examined += found
-        failures += sum(fails(pair.finding, planner.settings.fail_on) for pair in found)
+        fail_on = planner.settings.fail_on
+        failures += sum(pair.wants_more or fails(pair.finding, fail_on) for pair in found)
         if after and not keep:
             for i in {i for i, _ in block} - {after[0][0]}:
                 bodies.placed[i].release()

@@ -26,6 +26,7 @@ from satcheck.audit.pair import (
     MOST_STEPS,
     STEPS_OF_COPIED_TRIANGLE,
     STEPS_OF_SCENE,
+    STEPS_OF_SHAPE,
     STEPS_OF_TRIANGLE,
     Pair,
 )
@@ -89,10 +90,15 @@ class StepsOfScene:
             self.left = MOST_STEPS
         for body in {id(body): body for pair in pairs for body in (pair.a, pair.b)}.values():
             if id(body) not in self._known:
-                is_copy = id(body.shared) in self._known
-                a_triangle = STEPS_OF_COPIED_TRIANGLE if is_copy else STEPS_OF_TRIANGLE
-                self.left += a_triangle * (0 if body.curved else body.shared.triangles)
+                self.left += self._steps_of(body)
                 self._known |= {id(body), id(body.shared)}
+
+    def _steps_of(self, body: PlacedBody) -> int:
+        if body.curved is not None:
+            return STEPS_OF_SHAPE
+        is_copy = id(body.shared) in self._known
+        a_triangle = STEPS_OF_COPIED_TRIANGLE if is_copy else STEPS_OF_TRIANGLE
+        return a_triangle * body.shared.triangles
 
 
 def examine_pairs(

@@ -162,7 +162,7 @@ def test_nodes_that_double_at_each_level(tmp_path):
     nodes = [{"children": [k + 1, k + 1]} for k in range(depth)] + [{"mesh": 0}]
     code, message = refusal(tmp_path, "a.glb", graphs.glb(nodes, roots=[0]))
     assert code == "too-large"
-    assert "more than 1000000" in message
+    assert "more than 200000" in message
 
 
 @pytest.mark.parametrize("children", [[[0]], [[1], [0]], [[1], [2], [0]]])
