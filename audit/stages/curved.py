@@ -25,7 +25,7 @@ from satcheck.core.curved.in_mesh import InMesh, ends_crossed, relate
 from satcheck.core.curved.nesting import nesting
 from satcheck.core.curved.placed import is_convex
 from satcheck.core.curved.signed import Signed, convex_pair
-from satcheck.core.curved.triangles import Nearest, against_triangles
+from satcheck.core.curved.triangles import FEW, Nearest, against_triangles
 from satcheck.core.rounding import rounding_pad
 from satcheck.core.shape_mesh import mesh_around
 from satcheck.core.shapes import is_curved
@@ -44,9 +44,6 @@ PROOF = "curved-exact"
 TOO_CLOSE = "they overlap, and one may lie within the other: too close to its surface to tell"
 OPEN_BOUNDS = "the bounds of a curved shape did not close"
 CLOSE_CONTACT = "a curved shape in contact as far as its bounds tell"
-# The triangles about the middle of a shape that are compared first: one that meets its inside
-# decides.
-FEW = 32
 # Steps, each about a nanosecond: of a triangle that is compared, of bounds that are narrowed to
 # rounding, and of exact arithmetic.
 STEPS_OF_COMPARED, STEPS_OF_BOUNDS, STEPS_OF_PROOF = 25_000, 200_000, 200_000

@@ -16,6 +16,9 @@ from satcheck.core.curved.signed import AT_ORIGIN, Outcome, Signed, signed
 
 Floats = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
+# The triangles about the middle of a shape that are compared first: one that meets its inside may
+# decide.
+FEW = 32
 # The graver outcome comes first.
 _OUTCOMES: tuple[Outcome, ...] = ("penetrating", "touching", "separated")
 
