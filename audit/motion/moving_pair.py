@@ -66,7 +66,7 @@ STEPS_A_PIECE = 64
 # Pairs of boxes and triangles that all these queries may visit: a few seconds.
 VISITS = 10_000_000
 # Steps of the scene, each about a nanosecond: of a query, of a visit, of a pose that is checked.
-STEPS_OF_QUERY, STEPS_OF_VISIT, STEPS_OF_POSE = 50_000, 200, 300_000
+STEPS_OF_QUERY, STEPS_OF_VISIT, STEPS_OF_POSE = 50_000, 500, 300_000
 # The least touch band of a sweep, in units of the rounding of a pose.
 PADS_IN_BAND = 8
 

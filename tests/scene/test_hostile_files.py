@@ -200,6 +200,15 @@ def test_numbers_that_are_named_again_and_again(tmp_path, monkeypatch):
     assert "--limit megabytes" in found[1] or "--limit seconds" in found[1]
 
 
+def test_indices_that_name_their_data_again_and_again(tmp_path, monkeypatch):
+    content = files.glb(*with_primitives(100))
+    assert load_scene([write(tmp_path, "a.glb", content)]).bodies
+    monkeypatch.setattr(limits, "MAX_REPEATED", 0)
+    monkeypatch.setattr(limits, "ANY_REPEATED", 120)
+    code, message = refusal(tmp_path, "b.glb", content)
+    assert (code, "indices name the data" in message) == ("too-large", True)
+
+
 def test_a_buffer_that_is_named_again_and_again(tmp_path, monkeypatch):
     monkeypatch.setattr(limits, "IN_PROCESS_WORK", 1 << 20)
     document, buffer = files.gltf_document()
