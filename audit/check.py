@@ -12,7 +12,7 @@ from msgspec import UNSET, UnsetType
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
-from satcheck.audit.checked_pairs import CheckedPair, Progress, examine_pairs
+from satcheck.audit.checked_pairs import CheckedPair, Progress, StepsOfScene, examine_pairs
 from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.effects import effects_of
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
 DEFAULT_SETTINGS = Settings()
 
 # The most close pairs that are examined together.
-BLOCK = 100_000
+BLOCK = 50_000
 
 
 def check(
@@ -238,12 +238,12 @@ def _examined(
     keep: bool,
 ) -> tuple[list[IndexPair], list[CheckedPair], int]:
     """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, what is found of
-    each, and the number of close pairs after them. keep: later checks need the data of the
-    bodies."""
+    each, and the number of close pairs after them. A pair for which the steps of the scene do not
+    suffice counts as a failure. keep: later checks need the data of the bodies."""
     pairs: list[IndexPair] = []
     examined: list[CheckedPair] = []
     failures = 0
-    blocks = close.blocks(BLOCK)
+    budget, blocks = StepsOfScene(), close.blocks(BLOCK)
     block, after = next(blocks, []), next(blocks, [])
     total = close.count() if after else len(block)
     while block and failures < ENOUGH_FAILURES:
@@ -252,10 +252,12 @@ def _examined(
             if progress is not None:
                 progress(before + done, total)
 
-        found = _examined_together(bodies, block, planner, movers, told, keep=keep or bool(after))
+        kept = keep or bool(after)
+        found = _examined_together(bodies, block, planner, movers, told, budget, keep=kept)
         pairs += block
         examined += found
-        failures += sum(fails(pair.finding, planner.settings.fail_on) for pair in found)
+        fail_on = planner.settings.fail_on
+        failures += sum(pair.wants_more or fails(pair.finding, fail_on) for pair in found)
         if after and not keep:
             for i in {i for i, _ in block} - {after[0][0]}:
                 bodies.placed[i].release()
@@ -269,6 +271,7 @@ def _examined_together(
     planner: Planner,
     movers: Movers | None,
     progress: Progress,
+    budget: StepsOfScene,
     *,
     keep: bool,
 ) -> list[CheckedPair]:
@@ -292,7 +295,7 @@ def _examined_together(
         ]
         if movers is not None:
             movers.add_sweeps(pairs)
-        return examine_pairs(pairs, settings.jobs, progress, keep=keep)
+        return examine_pairs(pairs, settings.jobs, progress, budget=budget, keep=keep)
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:

@@ -22,9 +22,21 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.finding import examine
-from satcheck.audit.pair import MOST_STEPS, STEPS_OF_SCENE, STEPS_OF_TRIANGLE, Pair
+from satcheck.audit.pair import (
+    MOST_STEPS,
+    STEPS_OF_COPIED_TRIANGLE,
+    STEPS_OF_SCENE,
+    STEPS_OF_SHAPE,
+    STEPS_OF_TRIANGLE,
+    Pair,
+)
 from satcheck.audit.parallel import in_parallel
-from satcheck.audit.stages.relation import TOO_MANY_STEPS, leaves_work, start_climbs
+from satcheck.audit.stages.relation import (
+    NO_STEPS_LEFT,
+    TOO_MANY_STEPS,
+    leaves_work,
+    start_climbs,
+)
 from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
 from satcheck.report.report import INTERNAL_ERROR, OVERLAPS, Finding, Issue
 from satcheck.report.verdict import fails
@@ -41,6 +53,12 @@ PARALLEL_PAIRS = 8
 BATCH_PAIRS = 256
 BATCH_TRIANGLES = 250_000
 
+# The most triangles of bodies whose data wait for a later pair, about half a gigabyte.
+HELD_TRIANGLES = 2_500_000
+
+# Neighbours whose pairs come together, so that few bodies are in memory where all are in one place.
+TILE = 64
+
 # The factor of the steps of a pair that climbs again.
 MORE_STEPS = 16
 
@@ -49,7 +67,7 @@ Progress = Callable[[int, int], None]
 
 class CheckedPair(Struct, frozen=True):
     """draft: of a pair that fails and waits for its figures, and for what comes after them. steps:
-    of its climb. wants_more: with more of them it may prove more."""
+    that it took. wants_more: with more of them it may prove more."""
 
     finding: Finding
     issues: tuple[Issue, ...] = ()
@@ -58,63 +76,122 @@ class CheckedPair(Struct, frozen=True):
     wants_more: bool = False
 
 
+class StepsOfScene:
+    """The steps that the pairs of a scene may still take, block after block."""
+
+    def __init__(self) -> None:
+        self.left = STEPS_OF_SCENE
+        self._known: set[int] = set()
+
+    def add(self, pairs: Sequence[Pair]) -> None:
+        """Add the steps of bodies that were in no pair before. A pair alone may take as many as any
+        may."""
+        if len(pairs) == 1:
+            self.left = MOST_STEPS
+        for body in {id(body): body for pair in pairs for body in (pair.a, pair.b)}.values():
+            if id(body) not in self._known:
+                self.left += self._steps_of(body)
+                self._known |= {id(body), id(body.shared)}
+
+    def _steps_of(self, body: PlacedBody) -> int:
+        if body.curved is not None:
+            return STEPS_OF_SHAPE
+        is_copy = id(body.shared) in self._known
+        a_triangle = STEPS_OF_COPIED_TRIANGLE if is_copy else STEPS_OF_TRIANGLE
+        return a_triangle * body.shared.triangles
+
+
 def examine_pairs(
-    pairs: Sequence[Pair], jobs: int, progress: Progress | None = None, *, keep: bool = False
+    pairs: Sequence[Pair],
+    jobs: int,
+    progress: Progress | None = None,
+    *,
+    budget: StepsOfScene | None = None,
+    keep: bool = False,
 ) -> list[CheckedPair]:
     """Return the findings of pairs with the same settings, in their order. jobs: threads, 0 for one
-    a core. keep: do not release the data of the bodies, because another check needs them."""
+    a core. budget: of a scene of which other pairs take steps, too. keep: do not release the data
+    of the bodies, because another check needs them."""
+    budget = budget or StepsOfScene()
+    budget.add(pairs)
     done: dict[int, CheckedPair] = {}
     settled, wanting = 0, []
-    waiting, left = _along_curve(pairs), _steps_of(pairs)
-    steps = left // max(2 * len(pairs) - 1, 1)  # at first half of them, unless there is one pair
-    while waiting and left >= steps:
-        turn, waiting = waiting[: left // steps], waiting[left // steps :]
+    waiting = _along_curve(pairs)
+    steps = max(budget.left // max(2 * len(pairs) - 1, 1), 1)  # half of them, unless of one pair
+    while waiting and budget.left >= steps:
+        turn, waiting = waiting[: budget.left // steps], waiting[budget.left // steps :]
         for k, checked in _examined_within(pairs, turn, jobs, steps, keep=keep):
             done[k] = checked
-            left -= checked.steps
+            budget.left -= checked.steps
             if checked.wants_more:
                 wanting.append(k)
-                continue
-            settled += 1
-            if progress is not None:
-                progress(settled, len(pairs))
-        if not waiting and left >= 2 * steps:
-            waiting, wanting, steps = wanting, [], min(MORE_STEPS * steps, left)
+            else:
+                settled += 1
+                if progress is not None:
+                    progress(settled, len(pairs))
+            if budget.left < 0:
+                break
+        if not waiting and budget.left >= 2 * steps:
+            waiting, wanting, steps = wanting, [], min(MORE_STEPS * steps, budget.left)
     if progress is not None and settled < len(pairs):
         progress(len(pairs), len(pairs))
-    return [done[k] for k in range(len(pairs))]
+    return [done[k] if k in done else _beyond(pairs[k], keep=keep) for k in range(len(pairs))]
 
 
-def _steps_of(pairs: Sequence[Pair]) -> int:
-    """Return the most steps of the climbs of all pairs; of one pair, those that any may take."""
-    if len(pairs) == 1:
-        return MOST_STEPS
-    triangles = {id(body): body.shared.triangles for pair in pairs for body in (pair.a, pair.b)}
-    return STEPS_OF_SCENE + STEPS_OF_TRIANGLE * sum(triangles.values())
+def _beyond(pair: Pair, *, keep: bool) -> CheckedPair:
+    """Return what is known of a pair for which no steps are left."""
+    for body in (pair.a, pair.b) if not keep else ():
+        body.release()
+    return CheckedPair(Draft(pair).indeterminate(NO_STEPS_LEFT), wants_more=True)
 
 
 def _examined_within(
     pairs: Sequence[Pair], order: Sequence[int], jobs: int, steps: int, *, keep: bool
 ) -> Iterator[tuple[int, CheckedPair]]:
-    """Yield the findings of the pairs in this order. steps: the most of each climb."""
+    """Yield the findings of the pairs in this order. steps: the most of each, beside those that any
+    pair may take."""
     for k in order:
         pairs[k].steps = steps
     leaving = {} if keep else _leaving(pairs, order)
+    held = _Held()
     for k, checked in _careful(pairs, order) if is_careful() else _batched(pairs, order, jobs):
         yield k, checked
+        held.use(pairs[k].a, pairs[k].b)
         for body in leaving.get(k, ()):
-            body.release()
+            held.release(body)
+
+
+class _Held:
+    """Bodies whose data are in memory, the least recently used first."""
+
+    def __init__(self) -> None:
+        self._bodies: dict[PlacedBody, None] = {}
+        self._triangles = 0
+
+    def use(self, *bodies: PlacedBody) -> None:
+        """Release the first ones if all bodies have too many triangles."""
+        for body in bodies:
+            self._triangles += 0 if body in self._bodies else body.shared.triangles
+            self._bodies.pop(body, None)
+            self._bodies[body] = None
+        while self._triangles > HELD_TRIANGLES and len(self._bodies) > len(bodies):
+            self.release(next(iter(self._bodies)))
+
+    def release(self, body: PlacedBody) -> None:
+        del self._bodies[body]
+        self._triangles -= body.shared.triangles
+        body.release()
 
 
 def _along_curve(pairs: Sequence[Pair]) -> list[int]:
     bodies = {id(body): body for pair in pairs for body in (pair.a, pair.b)}
     order = core.order_along_curve([body.bounds for body in bodies.values()])
-    keys, count = list(bodies), len(bodies)
+    keys = list(bodies)
     rank = {keys[number]: place for place, number in enumerate(order)}
-    places = []  # sort key: the position of the earlier body, then of the other one
+    places = []  # sort key: the tiles of both bodies, then the bodies, each the earlier one first
     for pair in pairs:
-        a, b = rank[id(pair.a)], rank[id(pair.b)]
-        places.append(a * count + b if a < b else b * count + a)
+        a, b = sorted((rank[id(pair.a)], rank[id(pair.b)]))
+        places.append((a // TILE, b // TILE, a, b))
     return sorted(range(len(pairs)), key=places.__getitem__)
 
 

@@ -28,10 +28,15 @@ if TYPE_CHECKING:
 # meets about three.
 STEPS_OF_SCENE = 5_000_000_000
 STEPS_OF_TRIANGLE = 200_000
+# The same for a triangle of a mesh of which the scene has other bodies, and for a curved shape.
+STEPS_OF_COPIED_TRIANGLE, STEPS_OF_SHAPE = 20_000, 5_000_000
 MOST_STEPS = 2**63
 # The most steps of the relations of moved bodies, in which a way out of a pair is verified, and
 # more for each triangle.
 STEPS_OF_MOVES, STEPS_OF_MOVED_TRIANGLE = 1_000_000_000, 200_000
+
+# The steps that any sweep may take.
+STEPS_OF_SWEEP = 1_000_000
 
 # The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
 # of a part that is 1/4000 of its assembly still has the full precision of float32 coordinates.
@@ -60,7 +65,7 @@ class Pair(Struct, eq=False):
     within them; else 0.0. moves: the relative motion of the bodies; None: they do not move.
     alone: no other pair needs these bodies. work: the most steps of a search of the depth; 0: those
     of the settings. steps: the most of the climb, beside those that any pair may take. moved_steps:
-    spent on the relations of moved bodies.
+    spent on the relations of moved bodies; sweep_steps: on the sweep.
     """
 
     a: PlacedBody
@@ -74,6 +79,7 @@ class Pair(Struct, eq=False):
     work: int = 0
     steps: int = MOST_STEPS
     moved_steps: int = 0
+    sweep_steps: int = 0
     tolerance: float = 0.0  # __post_init__ sets these four
     gap_limit: float = 0.0
     off: tuple[float, float] = (0.0, 0.0)
@@ -106,6 +112,11 @@ class Pair(Struct, eq=False):
         """Return how many steps the relations of moved bodies may still take."""
         most = STEPS_OF_MOVES + STEPS_OF_MOVED_TRIANGLE * self.triangles
         return max(most - self.moved_steps, 0)
+
+    @property
+    def sweep_wants_more(self) -> bool:
+        """Return whether the sweep has taken as many steps as it may."""
+        return self.sweep_steps >= self.steps + STEPS_OF_SWEEP
 
     @property
     def thickness_work(self) -> int:

@@ -178,7 +178,7 @@ def stopped_early(unexamined: int) -> Iterator[Issue]:
     if unexamined:
         message = (
             f"{unexamined:,} close pairs were not examined and count as indeterminate: "
-            f"more than {ENOUGH_FAILURES:,} others fail"
+            f"more than {ENOUGH_FAILURES:,} others fail, or take more steps than the scene leaves"
         )
         yield Issue(STOPPED_EARLY, "note", None, None, message)
 

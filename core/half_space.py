@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 from msgspec import Struct
@@ -45,12 +46,17 @@ class Plane(Struct, frozen=True):
     @property
     def unit(self) -> Vector:
         """The unit normal, rounded; exact along an axis."""
-        if sum(c != 0 for c in self.normal) == 1:
-            x, y, z = (float((c > 0) - (c < 0)) for c in self.normal)
-            return x, y, z
-        length = _root(_dot(self.normal, self.normal))
-        x, y, z = (float(c / length) for c in self.normal)
+        return _unit(self.normal)
+
+
+@lru_cache(maxsize=64)  # a floor is asked about many bodies
+def _unit(normal: Exact) -> Vector:
+    if sum(c != 0 for c in normal) == 1:
+        x, y, z = (float((c > 0) - (c < 0)) for c in normal)
         return x, y, z
+    length = _root(_dot(normal, normal))
+    x, y, z = (float(c / length) for c in normal)
+    return x, y, z
 
 
 class Height(Struct, frozen=True):
@@ -76,8 +82,9 @@ class Height(Struct, frozen=True):
 def _height(p: Fraction, q: Fraction, w: Fraction, square: Fraction, point: Vector) -> Height:
     if _sign_of_roots(p, Fraction(1), q, w) == 0:
         value = 0.0
-    elif q == 0 and square == 1:
-        value = float(p)
+    elif q == 0:  # an integer divided by another is rounded once
+        root = _root(square)
+        value = (p.numerator * root.denominator) / (p.denominator * root.numerator)
     else:
         value = float((p + q * _root(w)) / _root(square))
     return Height(p, q, w, square, point, value)
@@ -193,21 +200,31 @@ def _extreme(plane: Plane, points: NDArray[np.float64], sign: int) -> Height:
     """sign: 1, the least height; -1, the greatest."""
     square, none = _dot(plane.normal, plane.normal), Fraction(0)
     heights = [
-        (_over(plane, (Fraction(x), Fraction(y), Fraction(z))), (x, y, z))
-        for x, y, z in sorted(set(map(tuple, points.tolist())))
+        (_over(plane, (x, y, z)), (x, y, z)) for x, y, z in sorted(set(map(tuple, points.tolist())))
     ]
     over, point = min(heights, key=lambda height: sign * height[0])
     return _height(over, none, none, square, point)
 
 
-def _over(plane: Plane, point: Sequence[Fraction]) -> Fraction:
-    return _dot(plane.normal, [p - o for p, o in zip(point, plane.origin, strict=True)])
+def _over(plane: Plane, point: Sequence[Fraction | float]) -> Fraction:
+    (normal, a), (origin, b), (at, c) = map(_integers, (plane.normal, plane.origin, point))
+    height = sum(n * (p * b - o * c) for n, o, p in zip(normal, origin, at, strict=True))
+    return Fraction(height, a * b * c)
+
+
+def _integers(values: Sequence[Fraction | float]) -> tuple[list[int], int]:
+    """Return the values times a power of two, and that: all of them are sums and products of
+    floats."""
+    ratios = [value.as_integer_ratio() for value in values]
+    most = max(bottom for _, bottom in ratios)
+    return [top * (most // bottom) for top, bottom in ratios], most
 
 
 def _dot(a: Sequence[Fraction], b: Sequence[Fraction]) -> Fraction:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
+@lru_cache(maxsize=64)
 def _root(square: Fraction) -> Fraction:
     """The square root with a relative error below 2**-_BITS; exact for squares of fractions."""
     top, bottom = square.numerator, square.denominator

@@ -6,6 +6,7 @@ call them first, and inspect the arguments only if a call fails.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, NoReturn, TypeAlias, get_args
 
@@ -31,6 +32,7 @@ def check_pair(
     *,
     query: Query = "depth",
     method: MethodChoice = "auto",
+    enough: float = math.inf,
 ) -> PairResult:
     """Check two placed convex shapes.
 
@@ -38,7 +40,8 @@ def check_pair(
     (any length except 0), then translate. query: "overlap" gives the outcome only and stops at the
     first proof; "depth" and "distance" give the signed distance, normal and witness points. method:
     "auto", "sat" (projections on axes, for shapes with faces), or "gjk" (support functions only:
-    portals for the outcome of an overlap, GJK and EPA for the rest).
+    portals for the outcome of an overlap, GJK and EPA for the rest). enough: a pair that is proven
+    to be deeper may have no figures, as for "overlap".
 
     Raises TypeError for wrong types, ValueError for a pose that is not finite or an unknown query
     or method, OverflowError for a translation out of range.
@@ -48,7 +51,7 @@ def check_pair(
     (Shewchuk 1997) if float64 cannot decide.
     """
     try:
-        return native.check_pair(a, b, pose_a, pose_b, query, method)
+        return native.check_pair(a, b, pose_a, pose_b, query, method, enough)
     except TypeError:
         _require_two_shapes(a, b, pose_a, pose_b)
         _require_words(query, method)

@@ -198,11 +198,15 @@ class _Report:
 
     def check_unlisted(self) -> tuple[int, int, int]:
         """The number of unlisted pairs whose boxes are apart, of exempt ones, and of those that
-        nothing decides: a body cannot be used or compared, or so many findings fail that the check
-        has stopped."""
+        nothing decides: a body cannot be used or compared, or so many findings fail or are
+        undecided that the check has stopped."""
         pruned = exempted = left_open = 0
         fail_on = self.report.settings.fail_on
-        failures = sum(fails(f, fail_on) for f in self.findings if isinstance(f, Finding))
+        failures = sum(
+            f.relation == "indeterminate" or fails(f, fail_on)
+            for f in self.findings
+            if isinstance(f, Finding)
+        )
         for a, b in combinations(self.bodies.values(), 2):
             if frozenset((a.id, b.id)) in self.listed:
                 continue

@@ -65,6 +65,8 @@ STEPS = 4096
 STEPS_A_PIECE = 64
 # Pairs of boxes and triangles that all these queries may visit: a few seconds.
 VISITS = 10_000_000
+# Steps of the scene, each about a nanosecond: of a query, of a visit, of a pose that is checked.
+STEPS_OF_QUERY, STEPS_OF_VISIT, STEPS_OF_POSE = 50_000, 500, 300_000
 # The least touch band of a sweep, in units of the rounding of a pose.
 PADS_IN_BAND = 8
 
@@ -211,7 +213,15 @@ class MovingPair:
 
     def found_at(self, t: float) -> Finding:
         """The finding at t, exact for the poses rounded to float64."""
-        return found(self.placed(t))
+        draft = Draft(self.placed(t))
+        finding = examine(draft)
+        self._spend(STEPS_OF_POSE + draft.steps + draft.work)
+        return finding
+
+    def _spend(self, steps: int) -> None:
+        if self.pair.sweep_wants_more:
+            raise BudgetSpent
+        self.pair.sweep_steps += steps
 
     def _hulls(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
@@ -226,6 +236,7 @@ class MovingPair:
         sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b, _ in self._sides]
         result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
+        self._spend(STEPS_OF_VISIT * result.visits)
         return result
 
     def _asked(
@@ -234,6 +245,7 @@ class MovingPair:
         self.steps += 1
         if self.steps > self._most_steps or self.visits >= VISITS:
             raise BudgetSpent
+        self._spend(STEPS_OF_QUERY)
         (a, frame_a), (b, frame_b) = sides
         (_, way_a), (_, way_b) = self._sides
         span = bounds.get("limit", bounds.get("window", 0.0))

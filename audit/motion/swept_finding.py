@@ -20,7 +20,10 @@ def with_sweep(finding: Finding, draft: Draft, moves: Moves) -> Finding:
     """The finding with the sweep of the pair, its stage in the draft, and a severity that counts
     both."""
     pair = draft.pair
+    pair.sweep_steps = 0
     motion = moves.sweep(pair)
+    draft.steps += pair.sweep_steps
+    draft.wants_more = draft.wants_more or pair.sweep_wants_more
     draft.record("sweep", motion.relation, _detail(motion))
     judgement = _judged(finding, motion, pair.request)
     if moves.clear and finding.relation in ("separated", "near") and motion.relation == "touching":

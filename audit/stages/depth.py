@@ -27,6 +27,10 @@ def measure_depth(draft: Draft, move: Vector | None) -> Depth:
     move: a translation of A within the touch band that is known to free it.
     """
     pair = draft.pair
+    if draft.signed is not None and draft.signed.normal is None:
+        from satcheck.core.curved.signed import convex_pair
+
+        draft.signed = convex_pair(pair.a, pair.b)
     if draft.signed is not None:
         return _convex_depth(draft, draft.signed)
     if pair.curved:

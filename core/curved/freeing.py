@@ -9,7 +9,7 @@ from satcheck.core.curved.exact.pair import proven
 from satcheck.core.curved.in_mesh import is_free
 from satcheck.core.curved.placed import Body, CurvedShape, is_convex
 from satcheck.core.curved.signed import convex_pair
-from satcheck.core.curved.triangles import against_triangles
+from satcheck.core.curved.triangles import FEW, against_triangles
 
 
 def frees(a: Body, b: Body, move: Vector) -> bool:
@@ -36,6 +36,9 @@ def move_off(a: Body, b: Body, most: float, pad: float) -> Vector | None:
     triangle with the deepest overlap. pad: an extra length that covers rounding. None: not found,
     usually because the shape penetrates several faces."""
     curved, mesh, sign = sides(a, b)
+    few = against_triangles(curved, mesh.mesh, 0.0, FEW).nearest
+    if few is not None and -few.lower > most:  # one of them is deeper
+        return None
     nearest = against_triangles(curved, mesh.mesh, 0.0).nearest
     if nearest is None or nearest.normal is None:
         return None

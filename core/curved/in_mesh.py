@@ -47,7 +47,7 @@ class InMesh(Struct, frozen=True):
 
 def relate(curved: CurvedShape, mesh: Body, seen: Nearest, reach: float) -> InMesh:
     """seen: the result of the shape against the triangles within reach."""
-    ends = _ends(mesh, seen)
+    ends = ends_crossed(mesh, seen)
     if ends:
         return _crossing(curved, mesh, len(ends))
     hole = hole_in_the_way(curved, mesh, _outcome(seen))
@@ -70,7 +70,7 @@ def is_free(curved: CurvedShape, mesh: Body) -> bool:
     return winding_within(curved, mesh) == 0
 
 
-def _ends(mesh: Body, seen: Nearest) -> list[int]:
+def ends_crossed(mesh: Body, seen: Nearest) -> list[int]:
     """The triangles that meet the inside of the shape and bound the body. For a body with holes,
     all triangles count."""
     crossed: list[int] = seen.crossed.tolist()

@@ -7,6 +7,7 @@ Otherwise they touch as far as float64 tells, and the answer is marked as not ex
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 from msgspec import Struct
@@ -25,7 +26,8 @@ Outcome = Literal["separated", "touching", "penetrating", "undecided"]
 class Signed(Struct, frozen=True):
     """A signed distance with bounds for the true bodies; fields as in core.PairResult.
 
-    exact: the outcome does not depend on the width of the bounds.
+    normal: None if an overlap is only known to be deep enough. exact: the outcome does not depend
+    on the width of the bounds.
     """
 
     distance: float
@@ -65,12 +67,16 @@ def signed(result: PairResult, slack: float) -> Signed | None:
     )
 
 
-def convex_pair(a: Body, b: Body, move: Vector = ORIGIN) -> Signed | None:
+def convex_pair(a: Body, b: Body, move: Vector = ORIGIN, enough: float = math.inf) -> Signed | None:
     """The signed distance of two bodies, each a curved shape or a convex mesh; A is translated by
-    `move`."""
+    `move`. enough: if they are proven to overlap by more, that is all that is found."""
     (shape_a, pose_a, slack_a), (shape_b, pose_b, slack_b) = _placed(a, move), _placed(b, ORIGIN)
-    result = check_pair(shape_a, shape_b, pose_a, pose_b, query="depth")
-    return signed(result, slack_a + slack_b)
+    slack = slack_a + slack_b
+    result = check_pair(shape_a, shape_b, pose_a, pose_b, query="depth", enough=enough + slack)
+    if result.outcome == "penetrating" and result.distance is None:
+        upper = math.nextafter(-enough, -math.inf)
+        return Signed(upper, -math.inf, upper, None, None, None, "penetrating", exact=True)
+    return signed(result, slack)
 
 
 def compare(a: Body, b: Body, length: float) -> int | None:

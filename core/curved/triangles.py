@@ -16,6 +16,9 @@ from satcheck.core.curved.signed import AT_ORIGIN, Outcome, Signed, signed
 
 Floats = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
+# The triangles about the middle of a shape that are compared first: one that meets its inside may
+# decide.
+FEW = 32
 # The graver outcome comes first.
 _OUTCOMES: tuple[Outcome, ...] = ("penetrating", "touching", "separated")
 
@@ -27,7 +30,7 @@ class Nearest(Struct, frozen=True):
     and its outcome hold for all of them; its witness points are those of the nearest one by
     estimated distance. None: all triangles are out of reach. triangle: the nearest. crossed:
     triangles that meet the inside of the shape. undecided: for some triangles this is unknown.
-    refined: the number of triangles decided in exact arithmetic.
+    compared, refined: the number of triangles, and of those decided in exact arithmetic.
     """
 
     nearest: Signed | None
@@ -35,17 +38,25 @@ class Nearest(Struct, frozen=True):
     crossed: Indices
     touched: tuple[int, ...]
     undecided: bool
+    compared: int = 0
     refined: int = 0
 
 
-def against_triangles(curved: CurvedShape, mesh: Mesh, reach: float) -> Nearest:
-    """Compares the shape with every triangle whose box is within reach of the box of the shape."""
+def against_triangles(
+    curved: CurvedShape, mesh: Mesh, reach: float, most: int | None = None
+) -> Nearest:
+    """Compares the shape with every triangle whose box is within reach of the box of the shape; of
+    more than `most` such triangles, only with so many about its middle."""
     corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
     low, high = (np.array(end) for end in curved.bounds())
     gaps = np.maximum(low - corners.max(axis=1), corners.min(axis=1) - high)
     close = np.flatnonzero(gaps.max(axis=1) <= reach)
     if not len(close):
         return Nearest(None, -1, close, (), False)
+    if most is not None and len(close) > most:
+        middles = corners[close].mean(axis=1) - np.array(curved.centre)
+        far = np.einsum("ij,ij->i", middles, middles)
+        close = np.sort(close[np.argsort(far, kind="stable")[:most]])
     results = _solve(curved, corners[close])
     distances = [signed(results[k], curved.slack) for k in range(len(close))]
     count = _refine(curved, corners[close], distances)
@@ -53,10 +64,11 @@ def against_triangles(curved: CurvedShape, mesh: Mesh, reach: float) -> Nearest:
     crossed = close[[d is not None and d.outcome == "penetrating" for d in distances]]
     touched = tuple(k for d, k in known if d.outcome == "touching" and d.exact)
     if not known:
-        return Nearest(None, -1, crossed, touched, True, count)
+        return Nearest(None, -1, crossed, touched, True, len(close), count)
     nearest, triangle = min(known, key=lambda pair: pair[0].distance)
     of_all = _of_all(nearest, [d for d, _ in known])
-    return Nearest(of_all, triangle, crossed, touched, len(known) < len(distances), count)
+    is_open = len(known) < len(distances)
+    return Nearest(of_all, triangle, crossed, touched, is_open, len(close), count)
 
 
 def _solve(curved: CurvedShape, corners: Floats) -> PairResults:

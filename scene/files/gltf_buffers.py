@@ -127,6 +127,7 @@ class Accessors:
         self._buffers: dict[int, memoryview] = {}
         self._unpacked: dict[int, memoryview] = {}
         self._made_bytes = 0
+        self._indexed_bytes = 0
 
     def positions(self, index: int) -> Floats:
         """x, y, z of each vertex, all finite."""
@@ -146,6 +147,11 @@ class Accessors:
     def indices(self, index: int) -> tuple[Indices, int]:
         """Vertex numbers, and the largest of them; -1: none."""
         data, code, stride = self._read(index, "SCALAR")
+        self._indexed_bytes += len(data)
+        held = sum(map(len, (*self._buffers.values(), *self._unpacked.values())))
+        if self._indexed_bytes > limits.MAX_REPEATED * held + limits.ANY_REPEATED:
+            most = f"more than {limits.MAX_REPEATED} times over"
+            raise Refused("too-large", f"accessor {index}: indices name the data {most}")
         if code not in _UNSIGNED:
             raise Refused("bad-record", f"accessor {index}: indices are not unsigned")
         indices, largest = readers.unpack_indices(data, code, stride)

@@ -8,10 +8,12 @@ from satcheck.scene.errors import Refused
 BYTES_PER_MEGABYTE = 1 << 20
 
 # Instances multiply: a dozen nested components can expand to 10^12 instances or triangles.
-MAX_PLACEMENTS = 1_000_000
+MAX_PLACEMENTS = 200_000
 MAX_TRIANGLES = 50_000_000
 MAX_VERTICES = 3 * MAX_TRIANGLES
-MAX_WITHOUT_DATA = 1_000_000  # elements of accessors of glTF that the file does not hold
+MAX_WITHOUT_DATA = 100_000  # elements of accessors of glTF that the file does not hold
+# Indices of glTF may name the data of their file so many times over, and more of them in any case.
+MAX_REPEATED, ANY_REPEATED = 4, BYTES_PER_MEGABYTE // 4
 MAX_DEPTH = 200  # of elements in XML and keys in TOML; no program nests deeper
 
 # Our own code reads glTF and checks every range. Its JSON can cost a few tens of times its size.

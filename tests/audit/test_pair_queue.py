@@ -30,6 +30,7 @@ class FakeBody:
     bounds: tuple
     gone: list = field(default_factory=list)
     shared: FakeMesh = field(default_factory=FakeMesh)
+    curved: None = None
 
     def release(self):
         self.gone.append(True)

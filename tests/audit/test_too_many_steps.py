@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import NoReturn
 
@@ -118,6 +120,26 @@ def finding_within(
     steps: int, files: list[Path], settings: Settings, monkeypatch: pytest.MonkeyPatch
 ) -> Finding:
     """Return the finding of two files if the climb may take so many steps."""
-    monkeypatch.setattr(checked_pairs, "_steps_of", lambda _: steps)
+    given = type("Given", (), {"left": steps, "add": lambda *_: None})
+    monkeypatch.setattr(import_module("satcheck.audit.check"), "StepsOfScene", given)
     [finding] = check(load_scene(files), settings).findings
     return finding
+
+
+def test_a_scene_without_steps_leaves_the_rest_undecided(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Six balls in one place: the first pair spends what is there, whatever the number of jobs."""
+    ball = {"shape": {"type": "sphere", "radius": 1}}
+    scene = {"schema": "satcheck.scene/1", "bodies": [{"id": str(k), **ball} for k in range(6)]}
+    file = tmp_path / "s.json"
+    file.write_text(json.dumps(scene))
+    given = type("Given", (), {"left": 100, "add": lambda *_: None})
+    monkeypatch.setattr(import_module("satcheck.audit.check"), "StepsOfScene", given)
+    monkeypatch.setattr("satcheck.audit.stages.curved.STEPS_OF_BOUNDS", 1_000)
+    reports = [check(load_scene([str(file)]), Settings(jobs=jobs, depth=True)) for jobs in (1, 2)]
+    relations = [[finding.relation for finding in report.findings] for report in reports]
+    assert relations[0] == relations[1]
+    assert relations[0].count("indeterminate") == 14
+    reasons = {f.reason for f in reports[0].findings if f.relation == "indeterminate"}
+    assert reasons == {NO_STEPS_LEFT}

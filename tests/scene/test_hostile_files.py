@@ -162,7 +162,7 @@ def test_nodes_that_double_at_each_level(tmp_path):
     nodes = [{"children": [k + 1, k + 1]} for k in range(depth)] + [{"mesh": 0}]
     code, message = refusal(tmp_path, "a.glb", graphs.glb(nodes, roots=[0]))
     assert code == "too-large"
-    assert "more than 1000000" in message
+    assert "more than 200000" in message
 
 
 @pytest.mark.parametrize("children", [[[0]], [[1], [0]], [[1], [2], [0]]])
@@ -198,6 +198,15 @@ def test_numbers_that_are_named_again_and_again(tmp_path, monkeypatch):
     (found,) = issues(path, megabytes_per_file=256)
     assert found[0] in ("reader-out-of-memory", "reader-timeout")
     assert "--limit megabytes" in found[1] or "--limit seconds" in found[1]
+
+
+def test_indices_that_name_their_data_again_and_again(tmp_path, monkeypatch):
+    content = files.glb(*with_primitives(100))
+    assert load_scene([write(tmp_path, "a.glb", content)]).bodies
+    monkeypatch.setattr(limits, "MAX_REPEATED", 0)
+    monkeypatch.setattr(limits, "ANY_REPEATED", 120)
+    code, message = refusal(tmp_path, "b.glb", content)
+    assert (code, "indices name the data" in message) == ("too-large", True)
 
 
 def test_a_buffer_that_is_named_again_and_again(tmp_path, monkeypatch):

@@ -250,6 +250,7 @@ def check_pair(
     pose_b: Sequence[float] | None,
     query: str,
     method: str,
+    enough: float,
 ) -> PairResult: ...
 def compare_signed_distance(
     a: Shape,

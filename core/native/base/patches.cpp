@@ -29,11 +29,18 @@ struct SetAtEdge {
 void find_sets_at(std::size_t edge, const Labels& labels, const EdgeTable& edges, std::vector<SetAtEdge>& sets) {
   sets.clear();
   for (const std::uint32_t h : edges.half_edges(edge)) {
-    const std::uint32_t set = labels.of_triangle[h / 3];
-    const auto known = std::find_if(sets.begin(), sets.end(), [&](const SetAtEdge& s) { return s.set == set; });
-    SetAtEdge& at = known == sets.end() ? sets.emplace_back(SetAtEdge{set, 0}) : *known;
-    at.balance += edges.ascends(h) ? 1 : -1;
+    sets.push_back({labels.of_triangle[h / 3], edges.ascends(h) ? 1 : -1});
   }
+  std::ranges::sort(sets, {}, &SetAtEdge::set);
+  std::size_t count = 0;
+  for (const SetAtEdge& at : sets) {
+    if (count > 0 && sets[count - 1].set == at.set) {
+      sets[count - 1].balance += at.balance;
+    } else {
+      sets[count++] = at;
+    }
+  }
+  sets.resize(count);
 }
 
 }  // namespace
@@ -61,6 +68,7 @@ std::vector<bool> find_open_sets(const Labels& labels, const EdgeTable& edges) {
 
 std::vector<bool> find_flaps(const Labels& labels, const EdgeTable& edges) {
   std::vector<std::vector<SetAtEdge>> rims;  // edges at which a set is open
+  std::vector<std::size_t> left_at;  // of its sets, those that are no flaps
   std::vector<std::vector<std::size_t>> rims_of(labels.count);
   std::vector<std::uint32_t> next;
   std::vector<SetAtEdge> sets;
@@ -70,6 +78,7 @@ std::vector<bool> find_flaps(const Labels& labels, const EdgeTable& edges) {
     if (sets.size() == 1) next.push_back(sets[0].set);
     for (const SetAtEdge& s : sets) rims_of[s.set].push_back(rims.size());
     rims.push_back(sets);
+    left_at.push_back(sets.size());
   }
   std::vector<bool> is_flap(labels.count, false);
   while (!next.empty()) {
@@ -78,8 +87,9 @@ std::vector<bool> find_flaps(const Labels& labels, const EdgeTable& edges) {
     if (is_flap[set]) continue;
     is_flap[set] = true;
     for (const std::size_t rim : rims_of[set]) {
-      std::erase_if(rims[rim], [&](const SetAtEdge& s) { return s.set == set; });
-      if (rims[rim].size() == 1 && rims[rim][0].balance != 0) next.push_back(rims[rim][0].set);
+      if (--left_at[rim] != 1) continue;
+      const auto last = std::ranges::find_if(rims[rim], [&](const SetAtEdge& s) { return !is_flap[s.set]; });
+      if (last->balance != 0) next.push_back(last->set);
     }
   }
   return is_flap;

@@ -194,15 +194,16 @@ void bind_pairs(nb::module_& m) {
   m.def(
       "check_pair",
       [](const Shape& a, const Shape& b, const std::optional<std::vector<double>>& pose_a,
-         const std::optional<std::vector<double>>& pose_b, const std::string& query, const std::string& method) {
+         const std::optional<std::vector<double>>& pose_b, const std::string& query, const std::string& method,
+         double enough) {
         const Pose pa = pose_from(pose_a), pb = pose_from(pose_b);
         const Query goal = query_from(query);
         const MethodChoice choice = method_from(method);
         nb::gil_scoped_release release;
-        return check_pair(a, pa, b, pb, goal, choice);
+        return check_pair(a, pa, b, pb, goal, choice, enough);
       },
       nb::arg("a"), nb::arg("b"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(),
-      nb::arg("query") = "depth", nb::arg("method") = "auto");
+      nb::arg("query") = "depth", nb::arg("method") = "auto", nb::arg("enough") = INFINITY);
   m.def(
       "compare_signed_distance",
       [](const Shape& a, const Shape& b, double length, const std::optional<std::vector<double>>& pose_a,

@@ -126,7 +126,7 @@ void set_flat(EpaResult& result, const MinkowskiDifference& m, Vec3 flat_normal)
 
 }  // namespace
 
-SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
+SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, double enough) {
   ExpandingPolytope& polytope = ExpandingPolytope::of_thread();
   EpaResult result;
   polytope.clear(m);
@@ -165,7 +165,7 @@ SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, E
       result.status = EpaResult::Status::separated;
       return result;
     }
-    if (goal == EpaGoal::sign && distance > noise && polytope.least_proven_distance(f) > noise) {
+    if (distance > enough + noise && polytope.least_proven_distance(f) > enough + noise) {
       result.lower = polytope.least_proven_distance(f);
       result.status = EpaResult::Status::depth;
       return result;

@@ -23,10 +23,8 @@ struct EpaResult {
   int iterations = 0;
 };
 
-// sign: stop as soon as both bounds have the same sign; the facet is not set.
-enum class EpaGoal { sign, depth };
-
-// `seed` may be the last simplex of GJK, which saves the first support points.
-EpaResult epa(const MinkowskiDifference& difference, const Simplex& seed, EpaGoal goal);
+// `seed` may be the last simplex of GJK, which saves the first support points. Stops as soon as the penetration is
+// proven to be more than `enough`; the facet is then not set.
+EpaResult epa(const MinkowskiDifference& difference, const Simplex& seed, double enough = INFINITY);
 
 }  // namespace satcheck

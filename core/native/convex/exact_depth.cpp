@@ -19,6 +19,7 @@ struct Facet {
   std::uint32_t corner[3];  // counter-clockwise from outside
   DyadicVec normal;
   Dyadic height;    // normal . p on the plane
+  Dyadic normal_squared, height_squared;  // the latter with the sign of the height
   Vec3 unit;        // rounded
   double distance;  // of the plane from the origin, signed, relative error within 4 roundoffs
 };
@@ -48,12 +49,7 @@ class ExactPolytope {
 
 // Whether the plane of f is nearer than the plane of g, by signed distances.
 bool is_nearer(const Facet& f, const Facet& g) {
-  const auto signed_square = [](const Facet& facet) {
-    const Dyadic square = facet.height * facet.height;
-    return facet.height.sign() < 0 ? -square : square;
-  };
-  const Dyadic of_f = signed_square(f) * dot(g.normal, g.normal);
-  return (of_f - signed_square(g) * dot(f.normal, f.normal)).sign() < 0;
+  return (f.height_squared * g.normal_squared - g.height_squared * f.normal_squared).sign() < 0;
 }
 
 // The foot of the origin lies in the facet with the nearest plane. Rounded distances leave only few facets to be
@@ -101,12 +97,15 @@ void ExactPolytope::start() {
 }
 
 void ExactPolytope::add(std::uint32_t p, std::uint32_t q, std::uint32_t r) {
-  Facet f{{p, q, r}, cross(vertices_[q].w - vertices_[p].w, vertices_[r].w - vertices_[p].w), {}, {}, 0};
+  Facet f{{p, q, r}, cross(vertices_[q].w - vertices_[p].w, vertices_[r].w - vertices_[p].w), {}, {}, {}, {}, 0};
   f.height = dot(f.normal, vertices_[p].w);
+  f.normal_squared = dot(f.normal, f.normal);
+  f.height_squared = f.height * f.height;
   f.unit = rounded_unit(f.normal);
-  if (f.height.sign() != 0) {
-    const double distance = rooted(f.height * f.height, dot(f.normal, f.normal)).value;
-    f.distance = f.height.sign() < 0 ? -distance : distance;
+  if (f.height.sign() != 0) f.distance = rooted(f.height_squared, f.normal_squared).value;
+  if (f.height.sign() < 0) {
+    f.height_squared = -f.height_squared;
+    f.distance = -f.distance;
   }
   facets_.push_back(std::move(f));
 }
@@ -134,7 +133,7 @@ void ExactPolytope::expand(const ExactSupport& w) {
 }
 
 ExactFigure ExactPolytope::figure(const Facet& nearest) const {
-  ExactFigure figure = rooted(nearest.height * nearest.height, dot(nearest.normal, nearest.normal));
+  ExactFigure figure = rooted(nearest.height * nearest.height, nearest.normal_squared);
   // The normal is rounded, so the translation along it has to be a little longer. `upper` is long enough.
   figure.normal = nearest.unit;
   const DyadicVec normal(figure.normal);

@@ -94,9 +94,10 @@ Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
   return touching_points(m, e.axis, e.upper);
 }
 
-CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query query, PairResult& result) {
+// enough: no figures are needed of cores that overlap by more.
+CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, double enough, PairResult& result) {
   // Near contact, GJK's simplex on curved shapes is a sliver, and its faces prove nothing.
-  const EpaResult e = epa(m, m.curved ? Simplex{} : g.simplex, query == Query::overlap ? EpaGoal::sign : EpaGoal::depth);
+  const EpaResult e = epa(m, m.curved ? Simplex{} : g.simplex, enough);
   result.epa_iterations += e.iterations;
   CoreAnswer answer;
   answer.method = Method::epa;
@@ -108,7 +109,7 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
     case EpaResult::Status::bounded:
       answer.lower = std::fmax(e.lower, -g.upper);  // the distance is at most GJK's upper bound
       answer.has_axis = true;
-      if (query != Query::overlap) answer.witness = overlap_witness(m, e);
+      if (!(e.lower > enough)) answer.witness = overlap_witness(m, e);
       return answer;
     case EpaResult::Status::separated:
       return from_epa_gap(m, g, e);
@@ -126,11 +127,11 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
   return answer;
 }
 
-CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& result) {
+CoreAnswer from_gjk(const MinkowskiDifference& m, double enough, PairResult& result) {
   const GjkResult g = gjk(m);
   result.gjk_iterations += g.iterations;
   if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
-  return from_epa(m, g, query, result);
+  return from_epa(m, g, enough, result);
 }
 
 // Curved shapes have no exact stage here. Bounds that close around 0 count as touching.
@@ -281,7 +282,7 @@ CoreAnswer from_sat(const MinkowskiDifference& m, const Pose& pose_a, const Pose
 }
 
 PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
-                          MethodChoice method) {
+                          MethodChoice method, double enough) {
   const MinkowskiDifference m(a, pose_a, b, pose_b);
   const double margin = m.a.margin + m.b.margin;
   double noise = proof_noise(m, pose_a, pose_b);
@@ -302,7 +303,9 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
       return result;
     }
   }
-  CoreAnswer core = by_sat ? from_sat(m, pose_a, pose_b, query, noise, result) : from_gjk(m, query, result);
+  const double of_cores = query == Query::overlap ? 0 : std::fmax(enough + noise - margin, 0);
+  CoreAnswer core = by_sat ? from_sat(m, pose_a, pose_b, query, noise, result) : from_gjk(m, of_cores, result);
+  if (core.lower > of_cores) query = Query::overlap;
   write_stage(core, result);
   result.outcome = classify(core, m, noise);
   const bool in_balance = result.outcome == Outcome::touching || result.outcome == Outcome::undecided;
@@ -327,12 +330,13 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
 }
 
 PairResult check_in_any_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
-                              MethodChoice method) {
+                              MethodChoice method, double enough = INFINITY) {
   // Selected by index instead of a branch, because the order is unpredictable.
   const Shape* const shapes[2] = {&a, &b};
   const Pose* const poses[2] = {&pose_a, &pose_b};
   const bool swapped = !comes_before(a, pose_a, b, pose_b);
-  PairResult result = check_in_order(*shapes[swapped], *poses[swapped], *shapes[!swapped], *poses[!swapped], query, method);
+  PairResult result = check_in_order(*shapes[swapped], *poses[swapped], *shapes[!swapped], *poses[!swapped], query, method,
+                                     enough);
   if (swapped) mirror(result);
   return result;
 }
@@ -356,14 +360,14 @@ MethodChoice method_from(const std::string& name) {
 }
 
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
-                      MethodChoice method) {
+                      MethodChoice method, double enough) {
   if (method != MethodChoice::gjk && query != Query::distance && a.kind == ShapeKind::box && b.kind == ShapeKind::box) {
     return check_placed_boxes(a, pose_a, b, pose_b, query);
   }
   const bool needs_faces = method == MethodChoice::sat || !a.is_polytope() || !b.is_polytope();
-  if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method);
-  if (needs_faces && !b.has_faces) return check_pair(a, pose_a, with_faces(b), pose_b, query, method);
-  return check_in_any_order(a, pose_a, b, pose_b, query, method);
+  if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method, enough);
+  if (needs_faces && !b.has_faces) return check_pair(a, pose_a, with_faces(b), pose_b, query, method, enough);
+  return check_in_any_order(a, pose_a, b, pose_b, query, method, enough);
 }
 
 }  // namespace satcheck

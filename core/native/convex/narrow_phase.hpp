@@ -35,8 +35,9 @@ struct PairResult {
   int portal_rounds = 0, gjk_iterations = 0, epa_iterations = 0, axes_tested = 0;
 };
 
-// Poses are rigid. Query overlap gives the outcome only and stops at the first proof.
+// Poses are rigid. Query overlap gives the outcome only and stops at the first proof. A pair that is proven to be
+// deeper than `enough` may have no figures.
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
-                      MethodChoice method = MethodChoice::automatic);
+                      MethodChoice method = MethodChoice::automatic, double enough = INFINITY);
 
 }  // namespace satcheck

@@ -31,19 +31,35 @@ bool holds_beside_all(const Surface& solid, Holds holds) {
   return all_hold;
 }
 
+// A triangle of each kind, of those with the same corners that face the same way.
+std::vector<std::array<std::uint32_t, 3>> distinct_triangles(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> distinct;
+  for (const auto& t : mesh.triangles) {
+    std::array<std::uint32_t, 3> corners{t[0], t[1], t[2]};
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    distinct.push_back(corners);
+  }
+  std::ranges::sort(distinct);
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  return distinct;
+}
+
 // Whether two triangles that may overlap lie in one plane and face away from each other. Winding numbers differ by one
 // across a triangle, so that only the other triangles of its plane can make both sides equal.
 bool has_opposite_triangles(const Surface& solid) {
   const Mesh& mesh = solid.mesh;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Corners c = corners(mesh, t);
+  for (const auto& [p, q, r] : distinct_triangles(mesh)) {
+    const Corners c{mesh.vertices[p], mesh.vertices[q], mesh.vertices[r]};
+    Aabb box{c[0], c[0]};
+    box.include(c[1]);
+    box.include(c[2]);
     const TrianglePlane plane(c[0], c[1], c[2]);
     const int axis = projection_axis(rounded_normal(c[0], c[1], c[2])), turn = orientation_2d(c[0], c[1], c[2], axis);
     if (turn == 0) {
       if (!collinear(c[0], c[1], c[2])) return true;  // a normal that has no certain axis
       continue;
     }
-    const bool none = visit_box(solid.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t other) {
+    const bool none = visit_box(solid.bvh, mesh, box, [&](std::uint32_t other) {
       const Corners d = corners(mesh, other);
       const auto in_plane = [&](Vec3 p) { return plane.side(p) == 0; };
       return orientation_2d(d[0], d[1], d[2], axis) != -turn || !std::all_of(d.begin(), d.end(), in_plane);
