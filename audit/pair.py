@@ -28,8 +28,7 @@ if TYPE_CHECKING:
 # meets about three.
 STEPS_OF_SCENE = 5_000_000_000
 STEPS_OF_TRIANGLE = 200_000
-# The same for a triangle of a mesh of which the scene has other bodies, and for a curved shape.
-STEPS_OF_COPIED_TRIANGLE, STEPS_OF_SHAPE = 20_000, 5_000_000
+STEPS_OF_SHAPE = 5_000_000
 MOST_STEPS = 2**63
 # The most steps of the relations of moved bodies, in which a way out of a pair is verified, and
 # more for each triangle.
@@ -65,7 +64,8 @@ class Pair(Struct, eq=False):
     within them; else 0.0. moves: the relative motion of the bodies; None: they do not move.
     alone: no other pair needs these bodies. work: the most steps of a search of the depth; 0: those
     of the settings. steps: the most of the climb, beside those that any pair may take. moved_steps:
-    spent on the relations of moved bodies; sweep_steps: on the sweep.
+    spent on the relations of moved bodies; sweep_steps: on the sweep; explain_steps: on whether
+    surfaces that may be off explain the overlap.
     """
 
     a: PlacedBody
@@ -80,6 +80,7 @@ class Pair(Struct, eq=False):
     steps: int = MOST_STEPS
     moved_steps: int = 0
     sweep_steps: int = 0
+    explain_steps: int = 0
     tolerance: float = 0.0  # __post_init__ sets these four
     gap_limit: float = 0.0
     off: tuple[float, float] = (0.0, 0.0)

@@ -38,6 +38,7 @@ MOST_REACH = 4.0
 QUICK_WORK = 1_000_000
 # Steps of the proof by the planes of faces, which decides bodies that fit at once, if at all.
 FIT_WORK, FIT_WORK_PER_TRIANGLE = 100_000_000, 20_000
+STEPS_OF_SHRUNK_TRIANGLE = 100
 
 
 WITHIN, DEEPER = Band("within"), Band("deeper")
@@ -54,8 +55,9 @@ def explain(draft: Draft, nanoseconds: int = 0) -> Band:
     """Return whether that explains an overlap of closed bodies: `hidden` if that is undecided, and
     `open` if it is not excused. nanoseconds: what was spent before."""
     pair = draft.pair
+    pair.explain_steps = 0
     band = _decided(pair)
-    draft.steps += _most_of_fit(pair) // 4  # most take less
+    draft.steps += pair.explain_steps
     off = " and ".join(f"{length:.3g} in {body.id}" for length, body in surfaces(pair))
     match band.side:
         case "within":
@@ -84,7 +86,7 @@ def _decided(pair: Pair) -> Band:
 def _decided_by_band(pair: Pair) -> Band:
     """Decide whether a ball thicker than the tolerance lies in both."""
     half = 0.5 * pair.tolerance
-    if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), half, half):
+    if _free_when_shrunk(pair, (half, half)):
         return WITHIN
     quick = _search(pair, pair.a, pair.b, (0.0, 0.0), pair.tolerance, prove=False, work=QUICK_WORK)
     if quick.lower > pair.tolerance:
@@ -123,11 +125,15 @@ def _fit(pair: Pair) -> Literal["deeper", "thin", "fit"] | None:
     if pair.settings.across >= 0:  # the faces across the axis of prisms do not count
         return None
     a, b = pair.a.surface(), pair.b.surface()
-    return core.fit_by_faces(a, b, pair.tolerance, _most_of_fit(pair))
+    most = min(pair.thickness_work, FIT_WORK + FIT_WORK_PER_TRIANGLE * pair.triangles)
+    fit, steps = core.fit_by_faces(a, b, pair.tolerance, most)
+    pair.explain_steps += steps
+    return fit
 
 
-def _most_of_fit(pair: Pair) -> int:
-    return min(pair.thickness_work, FIT_WORK + FIT_WORK_PER_TRIANGLE * pair.triangles)
+def _free_when_shrunk(pair: Pair, off: tuple[float, float]) -> bool:
+    pair.explain_steps += STEPS_OF_SHRUNK_TRIANGLE * pair.triangles
+    return core.free_when_shrunk(pair.a.surface(), pair.b.surface(), *off)
 
 
 def passes(pair: Pair) -> bool | None:
@@ -140,7 +146,7 @@ def _decided_by_surfaces(pair: Pair) -> Band:
         if not ball_in(pair, body, length).lower > 0:
             why = f"{body.id} is not known to be thicker than its tolerance"
             return Band("open", unexcused=why)
-    if core.free_when_shrunk(pair.a.surface(), pair.b.surface(), *pair.off):
+    if _free_when_shrunk(pair, pair.off):
         return WITHIN
     through = passes(pair)
     if through:
@@ -208,7 +214,7 @@ def _search(
 ) -> core.ThicknessInterval:
     """work: steps; None: as many as the settings grant."""
     with pair.searching("thickness beyond the surface tolerances") as progress:
-        return core.search_thickness(
+        interval = core.search_thickness(
             a.surface(),
             b.surface(),
             width=0.0,
@@ -220,3 +226,5 @@ def _search(
             prove=prove,
             progress=progress,
         )
+    pair.explain_steps += interval.work
+    return interval

@@ -29,13 +29,19 @@ const char* name_of(ThicknessStop stop) {
   return stop == ThicknessStop::narrow ? "narrow" : stop == ThicknessStop::decided ? "decided" : "work spent";
 }
 
-std::optional<const char*> name_of_fit(const Surface& a, const Surface& b, double length, std::uint64_t work) {
-  switch (fit_by_faces(a, b, length, work)) {
+std::optional<const char*> name_of(FaceFit fit) {
+  switch (fit) {
     case FaceFit::deeper: return "deeper";
     case FaceFit::thin: return "thin";
     case FaceFit::fit: return "fit";
     default: return std::nullopt;
   }
+}
+
+std::pair<std::optional<const char*>, std::uint64_t> counted_fit(const Surface& a, const Surface& b, double length, std::uint64_t work) {
+  Budget budget(work);
+  const FaceFit fit = fit_by_faces(a, b, length, budget);
+  return {name_of(fit), budget.spent()};
 }
 
 ThicknessInterval checked_search(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
@@ -92,11 +98,11 @@ stop: "narrow", "decided" (the interval lies on one side of the limit) or "work 
         R"(The thickness of each component of the overlap of two solids, without a search. upper: that of its convex hull;
 centre: of the largest ball in that; lower: how thick the overlap is around it, 0 where it does not lie in both, or may
 belong to another component.)");
-  m.def("fit_by_faces", &name_of_fit, "a"_a, "b"_a, "length"_a, "work"_a, nb::call_guard<nb::gil_scoped_release>(),
+  m.def("fit_by_faces", &counted_fit, "a"_a, "b"_a, "length"_a, "work"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(Whether a ball thicker than `length`, > 0, lies in both solids, by the planes of faces that lie in each other, to the last
 digits of float64. "deeper": one does. "thin": none does. "fit": none does, and wherever they meet both are thicker
 than that, so that neither is a sheet or a wire that passes through the other. None: `work` steps, each about a
-nanosecond, do not decide that. Swapping a and b changes nothing. ValueError for a surface that is not a solid.)");
+nanosecond, do not decide that. The number is of the steps that it took. Swapping a and b changes nothing. ValueError for a surface that is not a solid.)");
   m.def("free_when_shrunk", &free_when_shrunk, "a"_a, "b"_a, "most_a"_a, "most_b"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(Whether two solids are free of each other when each vertex moves into its body, by most_a or most_b at most. No point
 is then deeper than that in both, and no point of one surface is deeper in the other body than the sum of both. False: not found.

@@ -15,7 +15,7 @@
 namespace satcheck {
 namespace {
 
-constexpr std::uint64_t kClipWork = 60, kMeetWork = 4;
+constexpr std::uint64_t kClipWork = 60, kMeetWork = 4, kPlaceWork = 50;
 // A cell with more triangles is divided at once.
 constexpr std::size_t kManyPieces = 200;
 // Regions reach beyond their cells by these shares, tried in turn: strips that meet on a wall of a cell, or a little
@@ -39,8 +39,9 @@ struct StripCell {
 
 class Proof {
  public:
-  Proof(const Surface& a, const Surface& b, double length, std::uint64_t work)
-      : surfaces_{&a, &b}, half_(length / 2), budget_(work) {
+  Proof(const Surface& a, const Surface& b, double length, Budget& budget)
+      : surfaces_{&a, &b}, half_(length / 2), budget_(budget) {
+    budget_.spend(kPlaceWork * (a.mesh.triangles.size() + b.mesh.triangles.size()));
     for (const Surface* surface : surfaces_) {
       const Aabb& box = surface->bvh.nodes[0].box;
       scale_ = larger(scale_, larger(max_abs(box.min), max_abs(box.max)));
@@ -194,18 +195,18 @@ class Proof {
 
   std::array<const Surface*, 2> surfaces_;
   double half_, scale_ = 0, rounding_ = 0;
-  Budget budget_;
+  Budget& budget_;
   Mat3 axes_;
   std::vector<Placed> triangles_;
 };
 
 }  // namespace
 
-FaceFit fit_by_faces(const Surface& a, const Surface& b, double length, std::uint64_t work) {
+FaceFit fit_by_faces(const Surface& a, const Surface& b, double length, Budget& budget) {
   if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
   if (!(length > 0)) throw std::invalid_argument("the length must be positive");
   if (a.bvh.nodes.empty() || b.bvh.nodes.empty()) return FaceFit::fit;
-  return comes_before(a, b) ? Proof(a, b, length, work).run() : Proof(b, a, length, work).run();
+  return comes_before(a, b) ? Proof(a, b, length, budget).run() : Proof(b, a, length, budget).run();
 }
 
 }  // namespace satcheck

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "base/budget.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -18,8 +19,8 @@ enum class FaceFit : std::uint8_t {
            // their faces, and neither is a sheet or a wire that passes through the other
 };
 
-// Of two solids and a length > 0, within so many steps. All but `open` is proven. Throws std::invalid_argument unless
+// Of two solids and a length > 0, within the budget. All but `open` is proven. Throws std::invalid_argument unless
 // both are solids. Swapping them changes nothing.
-FaceFit fit_by_faces(const Surface& a, const Surface& b, double length, std::uint64_t work);
+FaceFit fit_by_faces(const Surface& a, const Surface& b, double length, Budget& budget);
 
 }  // namespace satcheck

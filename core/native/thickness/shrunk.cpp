@@ -1,8 +1,9 @@
 #include "thickness/shrunk.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
+#include <unordered_map>
 #include <vector>
 
 #include "base/rounding.hpp"
@@ -23,13 +24,6 @@ constexpr double kShort = 1 - 1e-6;
 // A side moves by this share of the most that a vertex may move: the corner of a cube moves sqrt(3) times as far as its
 // sides.
 constexpr double kShare = 0.57;
-
-struct InOrder {
-  bool operator()(Vec3 p, Vec3 q) const { return coordinates_less(p, q); }
-};
-
-// The unit normals at a place.
-using Normals = std::map<Vec3, std::vector<Vec3>, InOrder>;
 
 void add(std::vector<Vec3>& normals, Vec3 normal) {
   for (const Vec3 known : normals) {
@@ -52,27 +46,36 @@ Vec3 inwards(const std::vector<Vec3>& normals) {
   return least > 0 ? way * (-1 / least) : Vec3{};
 }
 
-Surface shrunk(const Surface& surface, double most) {
+// Moves the corners of the triangles that meet `other`.
+Surface shrunk(const Surface& surface, double most, const Aabb& other) {
   const Mesh& mesh = surface.mesh;
-  Normals normals;
+  std::vector<bool> moves(mesh.vertices.size(), false);
+  visit_box(surface.bvh, mesh, other, [&](std::uint32_t t) {
+    for (const std::uint32_t v : mesh.triangles[t]) moves[v] = true;
+    return true;
+  });
+  std::unordered_map<std::uint32_t, std::vector<Vec3>> normals;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& vertices = mesh.triangles[t];
+    if (std::none_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return moves[v]; })) continue;
     const Corners c = corners(mesh, t);
     const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
     const double length = norm(normal);
     if (!(length > 0)) continue;
-    for (const Vec3 corner : c) add(normals[corner], normal * (1 / length));
+    for (const std::uint32_t v : vertices) {
+      if (moves[v]) add(normals[v], normal * (1 / length));
+    }
   }
   Mesh moved = mesh;
-  for (Vec3& v : moved.vertices) {
-    const auto known = normals.find(v);
-    if (known == normals.end()) continue;
-    Vec3 way = inwards(known->second) * (kShare * most);
+  for (const auto& [vertex, here] : normals) {
+    Vec3& v = moved.vertices[vertex];
+    Vec3 way = inwards(here) * (kShare * most);
     const double length = norm(way);
     if (length > most * kShort) way = way * (most * kShort / length);
     const Vec3 there = v + way;
     if (norm(there - v) <= most * kShort * (1 + 8 * kUnitRoundoff)) v = there;
   }
-  return make_surface(std::move(moved), true);
+  return refitted_surface(surface, std::move(moved));
 }
 
 bool is_free(const Surface& a, const Surface& b) {
@@ -85,7 +88,8 @@ bool is_free(const Surface& a, const Surface& b) {
 bool free_when_shrunk(const Surface& a, const Surface& b, double most_a, double most_b) {
   if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
   if (!(most_a >= 0 && most_b >= 0)) throw std::invalid_argument("the lengths must not be negative");
-  const Surface less_a = shrunk(a, most_a), less_b = shrunk(b, most_b);
+  if (a.bvh.nodes.empty() || b.bvh.nodes.empty()) return true;
+  const Surface less_a = shrunk(a, most_a, b.bvh.nodes[0].box), less_b = shrunk(b, most_b, a.bvh.nodes[0].box);
   return comes_before(a, b) ? is_free(less_a, less_b) : is_free(less_b, less_a);
 }
 
