@@ -1,9 +1,9 @@
 """A report as one HTML page with a 3-D view, which works offline in any browser with WebGL 2.
 
-`page.html` is the page and `style.css` its look. `unpack.js` reads the geometry, `camera.js` looks,
-`solids.js` makes arrows and balls, `renderer.js` draws, `picture.js` decides what is drawn of a
-finding, `list.js` has the list of findings, `viewer.js` what the mouse and the keys do. All of them
-go into the one file.
+`page.html` is the page and `style.css` its look. `camera.js` looks, `meshes.js` reads bodies and
+makes arrows and balls, `renderer.js` draws, `picture.js` decides what is drawn of a finding,
+`list.js` has the list of findings, `viewer.js` what the mouse and the keys do. All of them go into
+the one file.
 """
 
 from __future__ import annotations
@@ -24,8 +24,7 @@ if TYPE_CHECKING:
 HERE = Path(__file__).parent
 SOURCES = (
     "style.css",
-    *("unpack.js", "camera.js", "solids.js", "renderer.js"),
-    *("picture.js", "list.js", "viewer.js"),
+    *("camera.js", "meshes.js", "renderer.js", "picture.js", "list.js", "viewer.js"),
 )
 
 

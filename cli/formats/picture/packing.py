@@ -1,7 +1,7 @@
 """Meshes and other arrays as short text: bytes of one weight stand together, deflated, in base64.
 
 Neighbours in a mesh have similar numbers, so their differences deflate better. The page undoes all
-that in `unpack.js`.
+that in `meshes.js`.
 """
 
 from __future__ import annotations

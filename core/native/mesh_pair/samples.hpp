@@ -99,10 +99,23 @@ class Samples {
 
   // Notes a point of triangle t of side.self. theirs: the winding number of the other surface there. False: the winding
   // number of its own surface was not decided.
-  bool note_free(const Side& side, std::uint32_t t, const ExactPoint& p, int theirs);
+  bool note_free(const Side& side, std::uint32_t t, const ExactPoint& p, int theirs) {
+    const auto mine = beside(side.self, p, corners(side.self.mesh, t), side.budget);
+    if (!mine) return false;
+    note_beside(side, *mine, {theirs, theirs}, [&] { return side.evidence(t, kNoTriangle, p.rounded); });
+    return true;
+  }
 
   // The same for any point; `partner` is the triangle to name beside t.
-  bool note_at(const Side& side, std::uint32_t t, std::uint32_t partner, const ExactPoint& p);
+  bool note_at(const Side& side, std::uint32_t t, std::uint32_t partner, const ExactPoint& p) {
+    const Corners c = corners(side.self.mesh, t);
+    const auto theirs = beside(side.other, p, c, side.budget);
+    if (!theirs) return false;
+    const auto mine = beside(side.self, p, c, side.budget);
+    if (!mine) return false;
+    note_beside(side, *mine, *theirs, [&] { return side.evidence(t, partner, p.rounded); });
+    return true;
+  }
 
   // The cells of a patch of side.self (0) and side.other (1). partner(t): the triangle to name beside one that is alone in
   // the patch.

@@ -1,3 +1,37 @@
+// Geometry as packing.py wrote it: base64, deflated, bytes of one weight together.
+async function unpacked(text, Numbers) {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const size = Numbers.BYTES_PER_ELEMENT, count = planes.length / size;
+  const rows = new Uint8Array(planes.length);
+  for (let plane = 0; plane < size; plane++)
+    for (let k = 0; k < count; k++) rows[k * size + plane] = planes[plane * count + k];
+  return new Numbers(rows.buffer);
+}
+
+// Typed arrays of integers wrap around, as the differences do.
+function sums(differences) {
+  for (let k = 1; k < differences.length; k++) differences[k] += differences[k - 1];
+  return differences;
+}
+
+const unpackedText = async (text) => new TextDecoder().decode(await unpacked(text, Uint8Array));
+
+// From columns of differences to rows.
+async function unpackedPoints(text) {
+  const columns = sums(await unpacked(text, Uint16Array)), count = columns.length / 3;
+  const points = new Uint16Array(columns.length);
+  for (let k = 0; k < count; k++)
+    for (let axis = 0; axis < 3; axis++) points[3 * k + axis] = columns[axis * count + k];
+  return points;
+}
+
+async function unpackedMesh(mesh) {
+  const [corners, differences] = [await unpackedPoints(mesh.corners), await unpacked(mesh.triangles, Uint32Array)];
+  return { corners, triangles: sums(differences) };
+}
+
 // Meshes of simple solids, for what is drawn beside the bodies.
 function turned(profile, segments = 24) {
   const corners = [], triangles = [];
