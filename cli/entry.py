@@ -12,7 +12,7 @@ import click
 from satcheck.cli import exit_codes
 from satcheck.cli.click_classes import satcheck
 from satcheck.cli.interrupts import end, hear_interrupts
-from satcheck.cli.output import harmless, talk
+from satcheck.cli.output import abandon, cannot_write, harmless, talk
 from satcheck.core.errors import SatcheckError
 
 COMPLETION_VARIABLE = "_SATCHECK_COMPLETE"
@@ -36,7 +36,7 @@ def _run() -> int:
         _talk_of_faults()
     stdout = sys.stdout
     try:
-        result: object = satcheck.main(prog_name="satcheck", standalone_mode=False)
+        result = _call()
     except (KeyboardInterrupt, click.Abort) as stop:
         if isinstance(stop.__cause__, EOFError):  # click takes it for an interrupt
             return _failed(_internal(stop.__cause__), debug)
@@ -70,6 +70,16 @@ def _misused(error: click.UsageError) -> int:
     error.show(shown)
     talk(f"{shown.getvalue()}{advice or ''}".removesuffix("\n"))
     return exit_codes.ERROR
+
+
+def _call() -> object:
+    try:
+        return satcheck.main(prog_name="satcheck", standalone_mode=False)
+    except OSError as error:
+        if COMPLETION_VARIABLE not in os.environ:
+            raise
+        abandon(sys.stdout)
+        raise cannot_write("standard output", error.strerror) from None
 
 
 def _stopped(stop: SystemExit, *, reader_left: bool) -> int:

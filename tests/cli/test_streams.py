@@ -70,14 +70,16 @@ def test_output_file_that_cannot_be_written(tmp_path: Path) -> None:
         ("config", "show", "--help"),
         ("schema", "-h"),
         ("--version",),
+        ("bash_source",),
     ],
 )
 def test_a_full_disk_is_an_error(arguments: tuple[str, ...]) -> None:
+    completes = arguments == ("bash_source",)
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            command(*arguments),
+            command(*(() if completes else arguments)),
             cwd=SAMPLES,
-            env=environment(),
+            env=environment({"_SATCHECK_COMPLETE": "bash_source"} if completes else None),
             stdout=full,
             stderr=subprocess.PIPE,
             check=False,
