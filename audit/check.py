@@ -257,7 +257,11 @@ def _examined(
         pairs += block
         examined += found
         fail_on = planner.settings.fail_on
-        failures += sum(pair.wants_more or fails(pair.finding, fail_on) for pair in found)
+        failures += sum(
+            fails(pair.finding, fail_on)
+            or (pair.wants_more and pair.finding.relation == "indeterminate")
+            for pair in found
+        )
         if after and not keep:
             for i in {i for i, _ in block} - {after[0][0]}:
                 bodies.placed[i].release()

@@ -52,7 +52,8 @@ PARALLEL_PAIRS = 8
 BATCH_PAIRS = 256
 BATCH_TRIANGLES = 250_000
 
-# The most triangles of bodies whose data wait for a later pair, about half a gigabyte.
+# The most triangles of bodies whose data wait for a later pair, about half a gigabyte. What is
+# released before a pair needs it is made again.
 HELD_TRIANGLES = 2_500_000
 
 # Neighbours whose pairs come together, so that few bodies are in memory where all are in one place.
@@ -83,9 +84,9 @@ class StepsOfScene:
         self._known: set[int] = set()
 
     def add(self, pairs: Sequence[Pair]) -> None:
-        """Add the steps of bodies that were in no pair before. A pair alone may take as many as any
-        may."""
-        if len(pairs) == 1:
+        """Add the steps of bodies that were in no pair before. The only pair of a scene may take as
+        many as any may."""
+        if len(pairs) == 1 and not self._known:
             self.left = MOST_STEPS
         for body in {id(body): body for pair in pairs for body in (pair.a, pair.b)}.values():
             if id(body) not in self._known:
@@ -148,10 +149,11 @@ def _examined_within(
     pair may take."""
     for k in order:
         pairs[k].steps = steps
-    leaving = {} if keep else _leaving(pairs, order)
-    held = _Held()
+    leaving, held = _leaving(pairs, order), _Held()
     for k, checked in _careful(pairs, order) if is_careful() else _batched(pairs, order, jobs):
         yield k, checked
+        if keep:
+            continue
         held.use(pairs[k].a, pairs[k].b)
         for body in leaving.get(k, ()):
             held.release(body)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 from satcheck.audit.planner import FOR_FAILURES, Planner
@@ -24,6 +24,10 @@ from satcheck.report.verdict import fails
 # Stages that are part of an effect of another name. All that no effect is named after decide the
 # overlap.
 _PART_OF = {"search": "depth", "verify": "depth"}
+_ANSWERS: dict[Effect, Callable[[Finding], object]] = {
+    "thickness": lambda finding: finding.thickness,
+    **{effect: extra.answer for effect, extra in ON_REQUEST.items() if extra.answer},
+}
 NOT_ASKED = "not asked"
 PRUNED = "boxes apart"
 ALLOWED = "allowed"
@@ -102,11 +106,8 @@ def _kind_of(request: Request, finding: Finding, fail_on: FailOn, time: dict[str
         done.add(effect)
     if finding.depth is not None:  # also if the touch band computed it
         done.add("depth")
-    answers = {effect: extra.answer for effect, extra in ON_REQUEST.items() if extra.answer}
     unanswered = frozenset(
-        effect
-        for effect, field in {"thickness": "thickness", **answers}.items()
-        if effect in done and getattr(finding, field) is None
+        effect for effect, answer in _ANSWERS.items() if effect in done and answer(finding) is None
     )
     exact = finding.exact_relation
     return _Kind(by, called_for, finding.at_rest, exact, frozenset(done), unanswered)

@@ -63,7 +63,7 @@ def origin_of(name: str) -> str:
 
 
 class Told(click.Option):
-    """An option whose help is told when it is shown: other packages may have registered by then."""
+    """An option whose help is made when it is shown: other packages may have registered by then."""
 
     def __init__(self, names: Sequence[str], *, tell: Callable[[], str], **more: Any) -> None:
         super().__init__(names, help=tell(), **more)

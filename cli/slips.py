@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 FEWEST_ASSETS = 4
 # More files than this make no line that anybody copies.
 MOST_FILES = 8
-# An option of more commands says not which of them is meant.
+# An option of more commands does not tell which is meant.
 MOST_OWNERS = 2
 _PATTERN = frozenset("*?[")
 _STORED = re.compile(rb'\s*{\s*"schema": ?"satcheck\.(report|assets|samples|result)/')

@@ -149,9 +149,10 @@ class Worker:
             due = 0
             try:
                 while True:
-                    if due <= ahead() // 2 and (sent := list(islice(left, ahead() - due))):
+                    may_send = due <= ahead() // 2 and not (due and self._stopped)
+                    if may_send and (sent := list(islice(left, ahead() - due))):
                         due += len(sent)
-                        self._started().send(sent, seconds, due)
+                        self._started().send(sent, seconds)
                     if not due:
                         return
                     assert self._child is not None
@@ -270,11 +271,11 @@ class _Child:
         self._threads.append(self._start(self._listen, self._process.stderr))
         self._threads.append(self._start(self._send, self._process.stdin))
 
-    def send(self, requests: list[bytes], seconds: float, due: int) -> None:
-        """seconds: for each. due: replies, with those to these."""
-        if due == len(requests):
+    def send(self, requests: list[bytes], seconds: float) -> None:
+        """Send requests to the child. seconds: for each."""
+        if self._due == len(self._replies):
             self._waits_since = time.monotonic()
-        self._due = due
+        self._due += len(requests)
         self._requests.put([parcel(each, seconds) for each in requests])
 
     def reply(self, seconds: float) -> tuple[bytes, bytes] | None:

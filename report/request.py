@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Literal
 
 from msgspec import Struct
 
-from satcheck.report.report import Effect
+from satcheck.report.report import Effect, Finding
 from satcheck.report.rule_book import Terms
 from satcheck.report.settings import StatedSettings
 
@@ -18,19 +18,19 @@ OPTIONS_OF_LIMITS = {"max_depth": "--max-depth", "max_thickness": "--max-thickne
 
 
 class OnRequest(Struct, frozen=True):
-    """An effect that no other one needs. setting: requests it, as the option of this name does.
-    answer: the field of a finding that holds its result; None: the trace alone has it."""
+    """An effect that is computed only on request. setting: requests it, as the option of this name
+    does. answer: its result in a finding; None: the trace alone has it."""
 
     setting: str
-    answer: str | None = None
+    answer: Callable[[Finding], object] | None = None
 
 
 ON_REQUEST: dict[Effect, OnRequest] = {
-    "volume": OnRequest("volume", "volume"),
-    "contacts": OnRequest("contacts", "contacts"),
-    "components": OnRequest("components", "components"),
+    "volume": OnRequest("volume", lambda finding: finding.volume),
+    "contacts": OnRequest("contacts", lambda finding: finding.contacts),
+    "components": OnRequest("components", lambda finding: finding.components),
     "cross-check": OnRequest("cross_check"),
-    "certificate": OnRequest("certificate", "certificate"),
+    "certificate": OnRequest("certificate", lambda finding: finding.certificate),
 }
 
 

@@ -45,7 +45,8 @@ def check_locally(
         while due:
             answers = made.answers()
             due -= len(answers)
-            yield answers
+            if answers:
+                yield answers
     except KeyboardInterrupt:
         yield made.ended()
         raise

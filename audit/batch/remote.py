@@ -33,7 +33,7 @@ _MOST_BYTES = 2 << 30  # of copies
 
 
 def is_url(name: str) -> bool:
-    return ":/" in name and _URL.fullmatch(name) is not None  # most names are none
+    return ":/" in name and _URL.fullmatch(name) is not None  # few names are URLs
 
 
 def is_remote(world: World) -> bool:

@@ -94,7 +94,8 @@ class Slot:
                 waiting = chain(sent, waiting)
 
     def _plainly(self, worlds: Iterable[World], sent: deque[World]) -> Iterator[Answer]:
-        """sent: gets the worlds that the process has. Raises WorkerError."""
+        """Yield answers until a world fails. sent: gets the worlds that the process has. Raises
+        WorkerError."""
 
         def requests() -> Iterator[bytes]:
             for world in worlds:

@@ -86,7 +86,7 @@ class Terms(NamedTuple):
 
 
 def text_of(value: object) -> bytes:
-    """As one line of JSON. msgspec writes no infinity, and no name of a file that is not UTF-8."""
+    """Return one line of JSON. msgspec writes no infinity, and no name that is not UTF-8."""
     return json.dumps(msgspec.to_builtins(value)).encode()
 
 
@@ -104,14 +104,14 @@ def answer_in(reply: bytes, world: World) -> Answer:
 
 def serve(request: bytes) -> bytes:
     shared, _, text = request.partition(b"\n")
-    terms = _terms(shared)
+    terms = _prepared(shared)
     job = read_line(text, Job)
     with careful(None if job.left_out is None else Care(job.left_out, _tell)):
         return msgspec.msgpack.encode(_result(job, terms))
 
 
 @lru_cache(maxsize=1)
-def _terms(text: bytes) -> Terms:
+def _prepared(text: bytes) -> Terms:
     """Make this process ready for worlds on these terms."""
     keep_freed_memory()
     gc.set_threshold(_GARBAGE)

@@ -213,9 +213,10 @@ class MovingPair:
 
     def found_at(self, t: float) -> Finding:
         """The finding at t, exact for the poses rounded to float64."""
+        self._spend(STEPS_OF_POSE)
         draft = Draft(self.placed(t))
         finding = examine(draft)
-        self._spend(STEPS_OF_POSE + draft.steps + draft.work)
+        self.pair.sweep_steps += draft.steps + draft.work
         return finding
 
     def _spend(self, steps: int) -> None:
@@ -236,7 +237,7 @@ class MovingPair:
         sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b, _ in self._sides]
         result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
-        self._spend(STEPS_OF_VISIT * result.visits)
+        self.pair.sweep_steps += STEPS_OF_VISIT * result.visits
         return result
 
     def _asked(

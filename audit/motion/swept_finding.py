@@ -23,7 +23,8 @@ def with_sweep(finding: Finding, draft: Draft, moves: Moves) -> Finding:
     pair.sweep_steps = 0
     motion = moves.sweep(pair)
     draft.steps += pair.sweep_steps
-    draft.wants_more = draft.wants_more or pair.sweep_wants_more
+    spent = motion.relation == "indeterminate" and pair.sweep_wants_more
+    draft.wants_more = draft.wants_more or spent
     draft.record("sweep", motion.relation, _detail(motion))
     judgement = _judged(finding, motion, pair.request)
     if moves.clear and finding.relation in ("separated", "near") and motion.relation == "touching":

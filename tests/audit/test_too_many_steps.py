@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import pytest
 
@@ -143,3 +144,38 @@ def test_a_scene_without_steps_leaves_the_rest_undecided(
     assert relations[0].count("indeterminate") == 14
     reasons = {f.reason for f in reports[0].findings if f.relation == "indeterminate"}
     assert reasons == {NO_STEPS_LEFT}
+
+
+def test_a_hundred_bolts_in_a_plate_are_all_decided(tmp_path: Path) -> None:
+    """Their facets lie in those of the holes by a thousandth of their size."""
+    manifold3d = pytest.importorskip("manifold3d")
+
+    def round_bar(turned: float, height: float) -> Any:
+        angles = [2 * math.pi * (k + turned) / 32 for k in range(32)]
+        section = manifold3d.CrossSection(
+            [[(0.4 * math.cos(t), 0.4 * math.sin(t)) for t in angles]]
+        )
+        return manifold3d.Manifold.extrude(section, height)
+
+    def write(name: str, solid: Any) -> None:
+        mesh = solid.to_mesh()
+        rows = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in mesh.vert_properties[:, :3].tolist()]
+        rows += [f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in mesh.tri_verts.tolist()]
+        (tmp_path / name).write_text("".join(rows))
+
+    places = [(i + 0.5, j + 0.5) for i in range(10) for j in range(10)]
+    hole = round_bar(0.0, 3.0)
+    holes = [hole.translate((x, y, -1.0)) for x, y in places]
+    cut = manifold3d.Manifold.batch_boolean(holes, manifold3d.OpType.Add)
+    write("plate.obj", manifold3d.Manifold.cube((10.0, 10.0, 1.0)) - cut)
+    write("bolt.obj", round_bar(0.5, 1.0))
+    bolts = [
+        {"id": f"bolt{k}", "mesh": "bolt.obj", "position": [x, y, 0.0]}
+        for k, (x, y) in enumerate(places)
+    ]
+    scene = {"schema": "satcheck.scene/1", "bodies": [{"id": "plate", "mesh": "plate.obj"}, *bolts]}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    report = check(load_scene([tmp_path / "scene.json"]), Settings(tolerance=0.01))
+    relations = [finding.relation for finding in report.findings]
+    assert relations.count("touching") == 100
+    assert "indeterminate" not in relations

@@ -268,3 +268,28 @@ def test_bounds_hold_the_truth(lower: str, upper: str, ulps: int) -> None:
         assert truth > 0
     if result.outcome == "penetrating":
         assert truth < 0
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_deep_enough_is_what_the_whole_depth_says(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    shapes: list[Any] = [
+        Cylinder(0.7, 0.4),
+        Cone(0.8, 0.6),
+        Ellipsoid((0.3, 0.9, 0.6)),
+        Capsule(0.3, 0.5),
+        Box((0.5, 0.3, 0.8)),
+    ]
+    a, b = rng.choice(len(shapes), 2)
+    pose = (*rng.uniform(-0.4, 0.4, 3), *rng.normal(size=4))
+    whole = check_pair(shapes[a], shapes[b], None, pose)
+    assert whole.lower is not None
+    most = -whole.lower  # no depth is more
+    for enough in (0.0, 0.5 * most, 0.99 * most, 1.01 * most, 2.0 * most):
+        early = check_pair(shapes[a], shapes[b], None, pose, enough=max(enough, 0.0))
+        assert early.outcome == whole.outcome
+        if early.normal is None:
+            assert early.outcome == "penetrating"
+            assert enough < most
+        else:
+            assert (early.distance, early.normal) == (whole.distance, whole.normal)

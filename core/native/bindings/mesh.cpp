@@ -268,7 +268,7 @@ solid: closed, oriented and of non-zero volume, so that it has an inside.)")
       .def_ro("oriented", &Topology::oriented)
       .def_ro("volume", &Topology::volume)
       .def_ro("solid", &Topology::solid);
-  nb::class_<Inspection>(m, "Inspection", R"(The result of inspect(). mesh: welded, oriented, in an order that depends on coordinates alone. turned: orienting
+  nb::class_<Inspection>(m, "Inspection", R"(The result of inspect(). mesh: welded, oriented if it is closed, in an order that depends on coordinates alone. turned: orienting
 changed the mesh. cracks: the number of closed cracks. topology: before these repairs; repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), file units, or None.)")
       .def_ro("mesh", &Inspection::mesh)
       .def_ro("turned", &Inspection::turned)

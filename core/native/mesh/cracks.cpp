@@ -20,6 +20,8 @@ constexpr double kThinBeside = 0x1p-10;
 // Vertices on edges, for each vertex of the boundary. A T-junction of two faces has one; many edges along one line have
 // more, and stay as they are.
 constexpr std::size_t kMostSplits = 16;
+// The same for vertices that are looked at: those of a cluster are near each of its edges.
+constexpr std::size_t kMostVisits = 200;
 
 std::vector<BoundaryLoop> loops_of(const Mesh& welded) {
   return boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles));
@@ -89,18 +91,21 @@ void split_edges(Mesh& welded, const std::vector<BoundaryLoop>& loops, double wi
   const Bvh tree = tree_of(welded, vertices);
   const auto at = [&](std::uint32_t v) { return welded.vertices[v]; };
   std::vector<Triangle> added;
+  std::size_t visits = 0;
   for (const BoundaryLoop& loop : loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t u = loop[i], v = loop[(i + 1) % loop.size()];
       const Vec3 along = at(v) - at(u);
+      if (norm(along) <= 2 * width) continue;  // all that is near is at its ends
       std::vector<std::pair<double, std::uint32_t>> between;
       visit_where(
           tree, Mesh{}, [&](const Aabb& box) { return may_pass(at(u), at(v), box, 2 * width); },
           [&](std::uint32_t k) {
             const std::uint32_t x = vertices[k];
+            ++visits;
             const bool at_end = distance(at(x), at(u)) <= width || distance(at(x), at(v)) <= width;
             if (!at_end && distance_to_segment(at(x), at(u), at(v)) <= width) between.emplace_back(dot(at(x) - at(u), along), x);
-            return true;
+            return visits <= kMostVisits * vertices.size();
           });
       std::sort(between.begin(), between.end());
       std::uint32_t last = u;
@@ -108,7 +113,7 @@ void split_edges(Mesh& welded, const std::vector<BoundaryLoop>& loops, double wi
         added.push_back({v, last, x});
         last = x;
       }
-      if (added.size() > kMostSplits * vertices.size()) return;
+      if (added.size() > kMostSplits * vertices.size() || visits > kMostVisits * vertices.size()) return;
     }
   }
   welded.triangles.insert(welded.triangles.end(), added.begin(), added.end());

@@ -23,6 +23,12 @@ std::vector<Hole> holes_but_flat_parts(const Mesh& welded) {
   return find_holes(mesh);
 }
 
+Inspection sealed(Inspection given, double width) {
+  given.cracks = seal_cracks(given.mesh, width);
+  if (given.cracks != 0) given.repaired = measure_topology(given.mesh);
+  return given;
+}
+
 void orient_mesh(Inspection& result, const Poll& poll) {
   Budget budget = Budget::that_stops(kMostSteps, poll);
   Mesh oriented = orient(result.mesh, &budget);
@@ -46,18 +52,12 @@ Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll) {
   return result;
 }
 
-Inspection with_cracks_closed(Inspection result, bool orient_it, double width, const Poll& poll) {
-  if (!has_boundary(result.repaired)) return result;
-  const Inspection given = result;
-  const auto seal = [&] {
-    result.cracks = seal_cracks(result.mesh, width);
-    if (result.cracks != 0) result.repaired = measure_topology(result.mesh);
-  };
-  seal();
+Inspection with_cracks_closed(Inspection given, bool orient_it, double width, const Poll& poll) {
+  if (!has_boundary(given.repaired)) return given;
+  Inspection result = sealed(given, width);
   if (orient_it && !result.repaired.oriented) {
-    result = given;
-    orient_mesh(result, poll);
-    seal();
+    orient_mesh(given, poll);
+    result = sealed(std::move(given), width);
   }
   if (orient_it) orient_mesh(result, poll);
   result.holes = has_boundary(result.repaired) ? holes_but_flat_parts(result.mesh) : std::vector<Hole>{};

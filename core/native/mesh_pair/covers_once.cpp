@@ -31,7 +31,7 @@ bool holds_beside_all(const Surface& solid, Holds holds) {
   return all_hold;
 }
 
-// A triangle of each kind, of those with the same corners that face the same way.
+// The triangles without copies that face the same way.
 std::vector<std::array<std::uint32_t, 3>> distinct_triangles(const Mesh& mesh) {
   std::vector<std::array<std::uint32_t, 3>> distinct;
   for (const auto& t : mesh.triangles) {

@@ -46,7 +46,7 @@ Vec3 inwards(const std::vector<Vec3>& normals) {
   return least > 0 ? way * (-1 / least) : Vec3{};
 }
 
-// Moves the corners of the triangles that meet `other`.
+// Moves the corners of the triangles whose boxes meet `other`.
 Surface shrunk(const Surface& surface, double most, const Aabb& other) {
   const Mesh& mesh = surface.mesh;
   std::vector<bool> moves(mesh.vertices.size(), false);
