@@ -26,7 +26,7 @@ INDEX, POSES = np.zeros(1, np.uint32), np.array([[0.0, 0, 0, 0, 0, 0, 1]])
         ("Cylinder", "radius half_height"),
         ("Cone", "radius half_height"),
         ("Ellipsoid", "radii"),
-        ("check_pair", "a b pose_a pose_b query method"),
+        ("check_pair", "a b pose_a pose_b query method enough"),
         ("compare_signed_distance", "a b length pose_a pose_b"),
         ("check_pairs", "shapes index_a index_b poses_a poses_b query method threads"),
     ],

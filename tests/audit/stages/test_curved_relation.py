@@ -310,7 +310,7 @@ def test_a_fin_of_no_thickness_is_material(
 
 def test_bounds_that_do_not_close_leave_the_relation_open(monkeypatch: pytest.MonkeyPatch) -> None:
     pair = shape("a", Sphere(1.0)), shape("b", Sphere(1.0), moved(1.5, 0.0, 0.0))
-    monkeypatch.setattr(curved, "convex_pair", lambda *_: None)
+    monkeypatch.setattr(curved, "convex_pair", lambda *_, **__: None)
     found = ask(*pair)
     assert (found.relation, found.severity, found.undecided) == (
         "indeterminate",
