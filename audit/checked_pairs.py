@@ -24,6 +24,7 @@ from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.finding import examine
 from satcheck.audit.pair import (
     MOST_STEPS,
+    STEPS_OF_COPIED_TRIANGLE,
     STEPS_OF_SCENE,
     STEPS_OF_SHAPE,
     STEPS_OF_TRIANGLE,
@@ -91,11 +92,14 @@ class StepsOfScene:
         for body in {id(body): body for pair in pairs for body in (pair.a, pair.b)}.values():
             if id(body) not in self._known:
                 self.left += self._steps_of(body)
-                self._known.add(id(body))
+                self._known |= {id(body), id(body.shared)}
 
-    @staticmethod
-    def _steps_of(body: PlacedBody) -> int:
-        return STEPS_OF_TRIANGLE * body.shared.triangles if body.curved is None else STEPS_OF_SHAPE
+    def _steps_of(self, body: PlacedBody) -> int:
+        if body.curved is not None:
+            return STEPS_OF_SHAPE
+        is_copy = id(body.shared) in self._known
+        a_triangle = STEPS_OF_COPIED_TRIANGLE if is_copy else STEPS_OF_TRIANGLE
+        return a_triangle * body.shared.triangles
 
 
 def examine_pairs(

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 # meets about three.
 STEPS_OF_SCENE = 5_000_000_000
 STEPS_OF_TRIANGLE = 200_000
-STEPS_OF_SHAPE = 5_000_000
+# The same for a triangle of a mesh of which the scene has other bodies, and for a curved shape.
+STEPS_OF_COPIED_TRIANGLE, STEPS_OF_SHAPE = 50_000, 5_000_000
 MOST_STEPS = 2**63
 # The most steps of the relations of moved bodies, in which a way out of a pair is verified, and
 # more for each triangle.
