@@ -111,8 +111,8 @@ def examine_pairs(
     keep: bool = False,
 ) -> list[CheckedPair]:
     """Return the findings of pairs with the same settings, in their order. jobs: threads, 0 for one
-    a core. budget: of a scene of which other pairs take steps, too. keep: do not release the data
-    of the bodies, because another check needs them."""
+    a core. budget: of a scene of which other pairs take steps, too. keep: release only the data for
+    which memory has no room, because another check needs them."""
     budget = budget or StepsOfScene()
     budget.add(pairs)
     done: dict[int, CheckedPair] = {}
@@ -153,11 +153,9 @@ def _examined_within(
     pair may take."""
     for k in order:
         pairs[k].steps = steps
-    leaving, held = _leaving(pairs, order), _Held()
+    leaving, held = {} if keep else _leaving(pairs, order), _Held()
     for k, checked in _careful(pairs, order) if is_careful() else _batched(pairs, order, jobs):
         yield k, checked
-        if keep:
-            continue
         held.use(pairs[k].a, pairs[k].b)
         for body in leaving.get(k, ()):
             held.release(body)
