@@ -78,9 +78,7 @@ def check_worlds(
     document = Document()
     how: dict[str, Any] = {"scheduler": scheduler}
     if scheduler is None:
-        jobs = cast("int", terms.settings["jobs"]) or os.cpu_count() or 1
-        threads = max(1, min(jobs // max(1, len(worlds)), _MOST_THREADS))
-        how = {"slots": jobs, "wanted": Wanted(kept=results is not None, threads=threads)}
+        how = _of_slots(terms, len(worlds), kept=results is not None)
     check = partial(engine, options=terms, limits=limits, **how)
     with _temporary_folder() as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
@@ -114,6 +112,13 @@ def check_worlds(
     if left:
         talk(f"satcheck: {issues[0].message}")
     return exit_codes.INTERRUPTED if is_broken_off else seen.exit_code(exit_zero=to.exit_zero)
+
+
+def _of_slots(terms: CheckOptions, worlds: int, *, kept: bool) -> dict[str, Any]:
+    """Return how many slots check these worlds, and with how many threads."""
+    jobs = cast("int", terms.settings["jobs"]) or os.cpu_count() or 1
+    threads = max(1, min(jobs // max(1, worlds), _MOST_THREADS))
+    return {"slots": jobs, "wanted": Wanted(kept=kept, threads=threads)}
 
 
 def _deliver(

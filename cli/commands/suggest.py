@@ -115,15 +115,20 @@ def command(
         name = "batch" if of_folders else DEFAULT_COMMAND
         line = call_of(name, inputs.paths, ["--rules", str(output)])
         talk(f"Next: {line} checks with these rules.")
-    if any(pair.reason.startswith(LOOSER) for pair in result.report.unchecked):
-        line = call_of("batch", inputs.paths, ["-o", "report.json"])
-        talk(f"Next: {line}, then satcheck baseline write baseline.json report.json accepts what")
-        talk("each asset has now; satcheck suggest ASSET makes rules for one asset alone.")
+    _tell_of_assets(result, inputs)
     if form == "srdf" and pairs:
         talk("An SRDF has one line for two links: it covers all pairs of their bodies.")
     if errors:
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if result.undecided else exit_codes.CLEAN
+
+
+def _tell_of_assets(result: Suggestions, inputs: Inputs) -> None:
+    """Say what to do where a rule, which goes by names, would loosen another asset."""
+    if any(pair.reason.startswith(LOOSER) for pair in result.report.unchecked):
+        line = call_of("batch", inputs.paths, ["-o", "report.json"])
+        talk(f"Next: {line}, then satcheck baseline write baseline.json report.json accepts what")
+        talk("each asset has now. Rules cannot: they go by names, in all assets alike.")
 
 
 def _of_scene(scene: Scene, inputs: Inputs, settings: Settings) -> Suggestions:
