@@ -235,11 +235,11 @@ class _Scene:
 
     def _copies(self, node: Instance[int]) -> Iterator[tuple[str, Transform | None]]:
         """(path, matrix) of a node, or of each GPU instance of the node."""
-        where = f"node {node.key}"
-        if self._nodes[node.key].skin != NONE:  # its joints place it
+        where, stated = f"node {node.key}", self._nodes[node.key]
+        if stated.skin != NONE:  # its joints place it
             yield node.path, None
             return
-        instancing = self._nodes[node.key].extension(INSTANCING, Instancing, where)
+        instancing = stated.extension(INSTANCING, Instancing, where)
         if instancing is None:
             yield node.path, node.matrix
             return

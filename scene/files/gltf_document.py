@@ -397,6 +397,12 @@ _INSIDE = {
     INSTANCING: (("attributes", "instance", ""),),
     DRACO: (("attributes", "attribute", ""),),
 }
+# Of each object, the known names in which there is nothing to look at.
+_PLAIN = {
+    kind: names.known.difference(("extensions", *(key for key, *_ in _INSIDE.get(kind, ()))))
+    for kind, names in PLACES.items()
+}
+_NOTHING: frozenset[str] = frozenset()
 _LISTS = {
     "scenes": "scene",
     "nodes": "node",
@@ -411,7 +417,7 @@ _LISTS = {
 
 def _look(given: Any, kind: str, place: str, unknown: UnknownNames) -> None:
     """Gather the names that nobody knows of an object and of the objects in it."""
-    if not isinstance(given, dict):
+    if not isinstance(given, dict) or _PLAIN.get(kind, _NOTHING).issuperset(given):
         return
     if kind in PLACES:
         unknown.look(PLACES[kind], given, kind, place)

@@ -116,8 +116,11 @@ def refuse_explosion(
         elif key in open_:
             raise Refused("reference-cycle", f"{describe(key)} contains itself: a cycle")
         elif key not in totals:
-            open_.add(key)
             below = within(key)
+            if not below:
+                totals[key] = 1
+                continue
+            open_.add(key)
             stack.append((key, below))
             stack += [(child, None) for child in below]
     limits.refuse_many(
