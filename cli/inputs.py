@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 from typing import Any, Self
@@ -90,22 +91,28 @@ def refuse_early(
     known = () if baseline is None else (str(baseline),)
     swept = () if inputs.joint_path is None else (inputs.joint_path,)
     read = (*inputs.paths, *inputs.pose, *swept, *inputs.rules, *known)
-    files: list[Path] = []
+    places: list[Path] = []
     for output in (each for each in outputs if each is not None and each != STANDARD_OUTPUT):
         if not is_folder(output.absolute().parent):
             raise cannot_write(str(output), "its folder does not exist")
-        if any(is_same_file(output, path) for path in read):
+        if _is_among(output, read):
             raise click.UsageError(f"{output} would overwrite an input")
-        if any(is_same_file(output, other) for other in files):
+        if output.absolute() in places or _is_among(output, places):
             raise click.UsageError(f"{output} is given twice")
-        files.append(output)
+        places.append(output.absolute())
 
 
-def is_same_file(output: Path, path: str | Path) -> bool:
+def _is_among(output: Path, files: Iterable[str | Path]) -> bool:
+    """Return whether the file exists, and is one of these."""
     try:
-        return output.samefile(path)
-    except OSError:  # one of them does not exist yet
-        return output.absolute() == Path(path).absolute()
+        same = output.stat()
+    except (OSError, ValueError):
+        return False
+    for path in files:
+        with suppress(OSError, ValueError):  # it does not exist
+            if os.path.samestat(same, os.stat(path)):  # noqa: PTH116  there may be thousands
+                return True
+    return False
 
 
 def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool = False) -> Scene:

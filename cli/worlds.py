@@ -203,7 +203,8 @@ def _run(
         if is_alone:
             from satcheck.cli.formats.assets import overview
 
-            with StoredResults([path]) as stored:
+            new = nullcontext(NewResults(path, tally.done))
+            with StoredResults([path]) if tally.kept else new as stored:
                 seen = overview(each.asset for each in stored)
     return tally, seen
 
