@@ -43,7 +43,6 @@ from satcheck.scene.opening import (
     note,
     note_lost_reader,
     open_file,
-    size_of,
     suffix_of,
 )
 from satcheck.scene.words import meant
@@ -113,7 +112,7 @@ class MeshFiles:
 
     def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
         """In this process, or in the child process, as its reader says. kind: of its documents."""
-        if reader.here and file.size <= reader.here:
+        if reader.here and len(file.data) <= reader.here:
             try:
                 return reader.checked(function_at(reader.read)(file))
             except NeedsChild:
@@ -232,7 +231,6 @@ class MeshFiles:
                 folder or os.curdir,
                 name,
                 b"",
-                size_of(location),
                 {**reader.values(self.allowed.options), GEOMETRY.name: geometry},
                 permitted=self.allowed.permitted,
                 path=path,

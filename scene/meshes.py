@@ -147,7 +147,7 @@ def _mesh_file(id_: str, vertices: Array, faces: Array) -> MeshFile:
         _number_format(vertices),
     )
     with ErrorsOf(id_):
-        return mesh_file(File("memory", "", "", b"", 0, path=id_), raw)
+        return mesh_file(File("memory", "", "", b"", path=id_), raw)
 
 
 def _number_format(values: Array) -> NumberFormat:

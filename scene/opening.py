@@ -364,18 +364,17 @@ class File(Struct, frozen=True):
     """A file that is open for a reader. It can be sent to a child process.
 
     directory: that its references are relative to. name: in the directory. data: its bytes, text as
-    UTF-8 without a byte order mark and padding; of a large binary STL file and of a format that is
-    `by_name`, less or none. size: in bytes. whole: its nodes are not wanted, so a reader need not
-    tell them apart. permitted: where what it names may lie, beside the directory. isolated: this
-    process may crash. path: as given, for messages. sha256: of the file, hex; None: not wanted.
-    packages: of a robot, see `robot.FilePlaces`. options: all that its reader declares, by name.
+    UTF-8 without a byte order mark and padding; of a format that is `by_name`, none. whole: its
+    nodes are not wanted, so a reader need not tell them apart. permitted: where what it names may
+    lie, beside the directory. isolated: this process may crash. path: as given, for messages.
+    sha256: of the file, hex; None: not wanted. packages: of a robot, see `robot.FilePlaces`.
+    options: all that its reader declares, by name.
     """
 
     format: str
     directory: str
     name: str
     data: Block
-    size: int
     options: Mapping[str, Any] = {}
     whole: bool = False
     permitted: Permitted = NOTHING_ELSE
@@ -392,11 +391,6 @@ class File(Struct, frozen=True):
     def context(self) -> Context:
         """Return what it may name."""
         return Context(self.directory, self.permitted)
-
-    @property
-    def in_pieces(self) -> bool:
-        """Return whether the data are the first bytes alone."""
-        return len(self.data) < self.size
 
 
 class ReadLimits(Struct, frozen=True):
@@ -437,7 +431,7 @@ _WIDE_MARKS = (
 )
 _ANY_MARK = (codecs.BOM_UTF8, *(mark for mark, _ in _WIDE_MARKS))
 
-LARGE_FILE_BYTES = 1_000_000  # larger files get their own thread and are read in pieces
+LARGE_FILE_BYTES = 1_000_000  # larger files get their own thread
 _STL_HEADER_BYTES = 84
 _STL_FACET_BYTES = 50
 _STL_COUNT = slice(80, 84)
@@ -510,7 +504,7 @@ def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
     """The bytes of a text file, without padding. Raises Refused, with the path, if it is not a
     regular file, is too large, or cannot be read."""
     try:
-        _, data = _read(location, size_of(location), most)
+        data = _read(location, size_of(location), most)
         if _listening:
             _note_digest(location, hashlib.sha256(data).hexdigest())
         return without_padding(data)
@@ -544,23 +538,19 @@ def open_file(
     name.
 
     path: its name in messages and reports. location: on disk. find: returns the reader of a suffix,
-    or raises Refused. Of a large binary STL file whose SHA-256 is not wanted only the first bytes
-    are read here: its reader reads it in pieces. whole: see `File`.
+    or raises Refused. whole: see `File`.
     """
     size = size_of(location)
     reader = find(suffix_of(location))
-    in_pieces = reader.name == "stl" and not allowed.hashed
-    size, data = _read(location, size, allowed.permitted.most, in_pieces=in_pieces)
+    data = _read(location, size, allowed.permitted.most)
     digest = hashlib.sha256(data).hexdigest() if allowed.hashed else None
     if digest is not None:
         _note_digest(location, digest)
-    is_stl = _is_binary_stl(size, data)
+    is_stl = _is_binary_stl(data)
     if reader.text == "plain" and not is_stl:
-        unmarked = _without_mark(data)
-        size, data = size + len(unmarked) - len(data), unmarked
+        data = _without_mark(data)
     if reader.text != "none" and not is_stl and _BINARY_PLY not in data[:_TEXT_HEAD_BYTES]:
-        text = without_padding(data)
-        size, data = size + len(text) - len(data), text
+        data = without_padding(data)
     content = _other_content(reader, data, is_stl=is_stl)
     if content is not None:
         message = f"not of format {reader.title}: its content is {content}"
@@ -571,7 +561,6 @@ def open_file(
         folder or os.curdir,
         name,
         data,
-        size,
         reader.values(allowed.options),
         whole,
         permitted=allowed.permitted,
@@ -580,21 +569,13 @@ def open_file(
     )
 
 
-def _read(
-    location: StrPath, size: int, most: Most, *, in_pieces: bool = False
-) -> tuple[int, bytes]:
-    """The size and the bytes of the file, even if its size has changed, and of a system file, which
-    states none. in_pieces: of a large binary STL file only the first bytes are read. Raises
-    Refused."""
+def _read(location: StrPath, size: int, most: Most) -> bytes:
+    """The bytes of the file, even if its size has changed, and of a system file, which states none.
+    Raises Refused."""
     most.refuse_beyond(size)
     try:
         file = os.open(location, _READ)
         try:
-            if in_pieces and size >= LARGE_FILE_BYTES:
-                head = read_file(file, _TEXT_HEAD_BYTES)
-                if _is_binary_stl(size, head):
-                    return size, head
-                os.lseek(file, 0, os.SEEK_SET)
             data = read_file(file, size)
             if more := os.read(file, 1):
                 data += more + read_file(file, most.size - len(data))
@@ -603,7 +584,7 @@ def _read(
     except OSError as error:
         raise _unreadable(error) from None
     most.refuse_beyond(len(data))
-    return len(data), data
+    return data
 
 
 def _without_mark(data: bytes) -> bytes:
@@ -633,8 +614,8 @@ def _other_content(reader: Reader, data: bytes, *, is_stl: bool) -> str | None:
     return "a binary STL file" if is_stl else None
 
 
-def _is_binary_stl(size: int, data: bytes) -> bool:
-    count, rest = divmod(size - _STL_HEADER_BYTES, _STL_FACET_BYTES)
+def _is_binary_stl(data: bytes) -> bool:
+    count, rest = divmod(len(data) - _STL_HEADER_BYTES, _STL_FACET_BYTES)
     return count > 0 and not rest and count == int.from_bytes(data[_STL_COUNT], "little")
 
 

@@ -22,7 +22,7 @@ _READERS = {
 def read_native(file: File) -> Document:
     """Return the meshes of a file. Only OBJ has several: an object (`o`) is a node. Raises
     Refused with line or byte."""
-    outcome = _read_in_pieces(file) if file.in_pieces else _READERS[file.format](bytes(file.data))
+    outcome = _READERS[file.format](bytes(file.data))
     if isinstance(outcome, readers.ReadError):
         raise Refused(outcome.code, f"{_place(outcome)}{outcome.message}")
     whole = RawMesh(
@@ -52,14 +52,6 @@ def _of_objects(whole: RawMesh, objects: list[tuple[bytes, readers.MeshData]]) -
         parts.append(RawPart(path, own))
     nodes = (Item(number, part.name) for number, part in enumerate(parts))
     return Document(tuple(parts), tuple(nodes), whole.warnings)
-
-
-def _read_in_pieces(file: File) -> readers.MeshData | readers.ReadError:
-    try:
-        with file.location.open("rb", buffering=0) as opened:
-            return readers.read_binary_stl(opened.fileno(), file.size)
-    except OSError as error:
-        raise Refused("unreadable-file", f"cannot be read: {error.strerror}") from None
 
 
 def _place(error: readers.ReadError) -> str:

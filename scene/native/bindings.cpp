@@ -68,12 +68,6 @@ std::size_t read_up_to(int descriptor, std::span<char> room) {
   return have;
 }
 
-[[noreturn]] void raise_os_error(const std::system_error& failure) {
-  errno = failure.code().value();
-  PyErr_SetFromErrno(PyExc_OSError);
-  nb::raise_python_error();
-}
-
 // Up to `size` bytes of an open file; fewer at its end.
 nb::bytes read_file(int descriptor, std::size_t size) {
   PyObject* room = PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size));
@@ -86,19 +80,12 @@ nb::bytes read_file(int descriptor, std::size_t size) {
     have = read_up_to(descriptor, {bytes, size});
   } catch (const std::system_error& failure) {
     Py_DECREF(room);
-    raise_os_error(failure);
+    errno = failure.code().value();
+    PyErr_SetFromErrno(PyExc_OSError);
+    nb::raise_python_error();
   }
   const nb::bytes whole = nb::steal<nb::bytes>(room);
   return have < size ? nb::bytes(bytes, have) : whole;  // the stable interface has no resize
-}
-
-ReadOutcome read_stl_in_pieces(int descriptor, std::size_t size) {
-  try {
-    nb::gil_scoped_release release;
-    return read_binary_stl(size, [&](std::span<char> room) { return read_up_to(descriptor, room); });
-  } catch (const std::system_error& failure) {
-    raise_os_error(failure);
-  }
 }
 
 std::variant<nb::bytes, ReadError> unpack_buffer_view(const nb::bytes& stream, const std::string& mode, std::size_t count,
@@ -224,9 +211,6 @@ void satcheck::bind_readers(nb::module_& m) {
 
   m.def("read_obj", &read<read_obj>, nb::arg("data"), "Wavefront OBJ.");
   m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL. Corners with equal coordinates, bit for bit, are one vertex.");
-  m.def("read_binary_stl", &read_stl_in_pieces, nb::arg("descriptor"), nb::arg("size"),
-        "Same as read_stl for the `size` bytes of an open file that is binary by its count of facets, without holding them; "
-        "OSError if it cannot be read.");
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
 

@@ -17,7 +17,6 @@ constexpr std::size_t header_size = 84;  // 80 bytes of text, then the facet cou
 constexpr std::size_t facet_size = 50;   // normal, three corners, two attribute bytes
 constexpr std::size_t normal_size = 12;
 constexpr std::size_t count_offset = 80;
-constexpr std::size_t facets_at_a_time = 10000;  // of a file that is read in pieces
 
 // The number of facets read ahead, so that the lookups of corners do not wait for memory.
 constexpr std::size_t ahead = 16;
@@ -41,7 +40,7 @@ bool is_finite(const Facet& facet) {
                static_cast<std::int64_t>(offset + i * sizeof(float)));
 }
 
-// Reads facets one after another, from any source.
+// Reads facets one after another.
 class BinaryReader {
  public:
   explicit BinaryReader(std::size_t count) : corners_(vertices_of(count)) {
@@ -52,19 +51,17 @@ class BinaryReader {
     triangles_ = mesh_.triangles.data();
   }
 
-  void take(std::string_view facets) {
-    const std::size_t end = taken_ + facets.size() / facet_size;
-    for (const char* from = facets.data() + normal_size; taken_ < end; ++taken_, from += facet_size) {
-      if (taken_ >= ahead) number(waiting_[taken_ % ahead]);
-      auto& [facet, hash] = waiting_[taken_ % ahead];
+  MeshData read(std::string_view facets) {
+    const std::size_t count = facets.size() / facet_size;
+    const char* from = facets.data() + normal_size;
+    for (std::size_t i = 0; i < count; ++i, from += facet_size) {
+      if (i >= ahead) number(waiting_[i % ahead]);
+      auto& [facet, hash] = waiting_[i % ahead];
       std::memcpy(&facet, from, sizeof facet);
-      if (!is_finite(facet)) fail_at_coordinate(facet, taken_, header_size + taken_ * facet_size + normal_size);
+      if (!is_finite(facet)) fail_at_coordinate(facet, i, header_size + i * facet_size + normal_size);
       for (std::size_t k = 0; k < 3; ++k) corners_.fetch(hash[k] = corners_.hash(from + k * sizeof facet[k]));
     }
-  }
-
-  MeshData finish() {
-    for (std::size_t i = taken_ - std::min(taken_, ahead); i < taken_; ++i) number(waiting_[i % ahead]);
+    for (std::size_t i = count - std::min(count, ahead); i < count; ++i) number(waiting_[i % ahead]);
     return std::move(mesh_);
   }
 
@@ -88,7 +85,6 @@ class BinaryReader {
   MeshData mesh_;
   Corners<float> corners_;
   std::array<Waiting, ahead> waiting_;
-  std::size_t taken_ = 0;
   std::uint32_t* triangles_;  // the next vertex number
 };
 
@@ -233,10 +229,10 @@ bool looks_like_ascii(std::string_view bytes) {
 
 // The number of facets by the binary header, if the file is long enough for one, and by the size of the file.
 struct Promise {
-  Promise(std::string_view head, std::size_t size) {
-    if (size < header_size) return;
-    count = load<std::uint32_t>(head.data() + count_offset);
-    body = size - header_size;
+  explicit Promise(std::string_view bytes) {
+    if (bytes.size() < header_size) return;
+    count = load<std::uint32_t>(bytes.data() + count_offset);
+    body = bytes.size() - header_size;
     // The size decides, not the first word: exporters write binary files whose header starts with "solid".
     is_kept = body % facet_size == 0 && body / facet_size == count;
   }
@@ -256,12 +252,8 @@ struct Promise {
 };
 
 MeshData read(std::string_view bytes) {
-  const Promise promise(bytes, bytes.size());
-  if (promise.is_kept) {
-    BinaryReader reader(promise.count);
-    reader.take(bytes.substr(header_size));
-    return reader.finish();
-  }
+  const Promise promise(bytes);
+  if (promise.is_kept) return BinaryReader(promise.count).read(bytes.substr(header_size));
   if (looks_like_ascii(bytes)) return AsciiStlReader(bytes).read();
   if (bytes.size() < header_size) {
     fail(code::not_this_format, "not an STL file: " + std::to_string(bytes.size()) +
@@ -270,33 +262,10 @@ MeshData read(std::string_view bytes) {
   promise.fail_unkept();
 }
 
-MeshData read_pieces(std::size_t size, const NextBytes& next) {
-  std::vector<char> room(facets_at_a_time * facet_size);
-  const auto require = [&](std::size_t have, std::size_t wanted, std::size_t from) {
-    if (have < wanted) fail_at_byte(code::truncated, "truncated while it was read", static_cast<std::int64_t>(from + have));
-  };
-  require(next({room.data(), header_size}), header_size, 0);
-  const Promise promise({room.data(), header_size}, size);
-  if (!promise.is_kept) promise.fail_unkept();
-  BinaryReader reader(promise.count);
-  for (std::size_t at = header_size; at < size;) {
-    const std::size_t wanted = std::min(size - at, room.size());
-    require(next({room.data(), wanted}), wanted, at);
-    reader.take({room.data(), wanted});
-    at += wanted;
-  }
-  if (next({room.data(), 1}) > 0) fail_at_byte(code::trailing_data, "written to while it was read", static_cast<std::int64_t>(size));
-  return reader.finish();
-}
-
 }  // namespace
 
 ReadOutcome read_stl(std::string_view bytes) {
   return run_reader([&] { return read(bytes); });
-}
-
-ReadOutcome read_binary_stl(std::size_t size, const NextBytes& next) {
-  return run_reader([&] { return read_pieces(size, next); });
 }
 
 }  // namespace satcheck::scene

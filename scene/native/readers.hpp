@@ -4,9 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,13 +26,6 @@ std::vector<Object> split_objects(const MeshData& mesh);
 
 // Binary STL (recognised by its size, 84 + 50 n) or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.
 ReadOutcome read_stl(std::string_view bytes);
-
-// Reads the next bytes of a file into `room`; fewer at its end. Readers let its exceptions pass.
-using NextBytes = std::function<std::size_t(std::span<char> room)>;
-
-// Reads a file of `size` bytes that is binary STL by the rules of read_stl(), piece by piece. The pieces stay in the
-// cache, and no memory for the whole file is needed.
-ReadOutcome read_binary_stl(std::size_t size, const NextBytes& next);
 
 // PLY 1.0: ascii, binary_little_endian, binary_big_endian.
 ReadOutcome read_ply(std::string_view bytes);

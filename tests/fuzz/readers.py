@@ -53,7 +53,7 @@ def read_in_this_process(path: Path) -> None:
     data = path.read_bytes()
     reader = required_reader(path.suffix)
     options = reader.values({})
-    file = File(reader.name, str(path.parent), path.name, data, len(data), options)
+    file = File(reader.name, str(path.parent), path.name, data, options)
     reply = serve(pickle.dumps((reader.read, file)))
     content = msgspec.msgpack.decode(reply, type=Reply[Document]).content
     if isinstance(content, Refusal):

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import gc
-import struct
 from threading import Thread
 
 import pytest
 
 from satcheck.core import worker
-from satcheck.scene import MeshFile, MeshFiles, Refused, load_scene, mesh_files, opening
+from satcheck.scene import MeshFile, MeshFiles, Refused, load_scene, mesh_files
 from satcheck.scene.document import FilePart
 from satcheck.scene.files import limits
-from satcheck.scene.files.native_formats import read_native
-from satcheck.scene.files.readers import ReadLimits, required_reader
+from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.files.reading_children import ReadingChildren
-from satcheck.scene.opening import ANYWHERE, open_file
+from satcheck.scene.opening import ANYWHERE
 from tests.scene import files, graphs
 
 NODES = [{"name": "rim", "mesh": 0}, {"name": "tyre", "mesh": 0, "translation": [5, 0, 0]}]
@@ -95,59 +93,6 @@ def test_buffers_outside_of_the_folder_are_read_where_that_is_allowed(
     assert isinstance(MeshFiles(allowed).item(FilePart("level.gltf", str(path))).shape, MeshFile)
     (body,) = load_scene([path], allow_outside=True).bodies
     assert body.file.health.solid
-
-
-def stl_of(triangles: int) -> bytes:
-    """A fan."""
-    facet = struct.Struct("<12f2x")
-    corners = ((0, 0, 0, k, 1, 0, k + 1, 1, 0, 0, 0, -1) for k in range(triangles))
-    return b" " * 80 + struct.pack("<I", triangles) + b"".join(facet.pack(*c) for c in corners)
-
-
-@pytest.mark.parametrize("damage", ["none", "infinite", "short", "long", "png", "text"])
-def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monkeypatch, damage):
-    monkeypatch.setattr(opening, "LARGE_FILE_BYTES", 1)
-    content = bytearray(stl_of(300))
-    if damage == "infinite":
-        content[84 + 50 * 200 + 12 : 84 + 50 * 200 + 16] = struct.pack("<f", float("inf"))
-    elif damage == "short":
-        del content[-1:]
-    elif damage == "long":
-        content += b"x"
-    elif damage == "png":
-        content[:6] = b"\x89PNG\r\n"
-    elif damage == "text":
-        content = bytearray(b"solid x\nendsolid x\n" * 10)
-    path = tmp_path / "fan.stl"
-    path.write_bytes(content)
-    pieces = MeshFiles(ReadLimits(hashed=False)).item(FilePart("fan.stl", str(path))).shape
-    whole = MeshFiles().item(FilePart("fan.stl", str(path))).shape
-    if damage == "none":
-        assert isinstance(pieces, MeshFile)
-        assert isinstance(whole, MeshFile)
-        _, file = open_file("", path, required_reader, ReadLimits(1, hashed=False))
-        assert file.in_pieces
-        assert pieces.sha256 is None
-        assert pieces.mesh.to_bytes() == whole.mesh.to_bytes()
-        assert (pieces.health, pieces.resolution) == (whole.health, whole.resolution)
-    else:
-        assert isinstance(pieces, Refused)
-        assert isinstance(whole, Refused)
-        assert (pieces.code, str(pieces)) == (whole.code, str(whole))
-
-
-def test_a_large_stl_file_that_shrinks_while_it_is_read_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(opening, "LARGE_FILE_BYTES", 1)
-    path = tmp_path / "fan.stl"
-    path.write_bytes(stl_of(300))
-    _, file = open_file("fan.stl", path, required_reader, ReadLimits(1, hashed=False))
-    assert file.in_pieces
-    path.write_bytes(stl_of(300)[:1000])
-    with pytest.raises(Refused, match="byte 1000: truncated while it was read"):
-        read_native(file)
-    path.unlink()
-    with pytest.raises(Refused, match="cannot be read: No such file"):
-        read_native(file)
 
 
 def refused(_):

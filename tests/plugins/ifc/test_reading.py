@@ -225,7 +225,7 @@ def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(readers, "import_module", missing)
     with pytest.raises(Refused) as caught:
-        read_ifc(File("ifc", "", "a.ifc", good().encode(), 0))
+        read_ifc(File("ifc", "", "a.ifc", good().encode()))
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[ifc]'" in caught.value.message
 

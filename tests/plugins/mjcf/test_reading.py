@@ -298,5 +298,5 @@ def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.Monke
 
     monkeypatch.setattr(readers, "import_module", missing)
     with pytest.raises(Refused, match=r"pip install 'satcheck\[mjcf\]'") as caught:
-        read_mjcf(File("mjcf", "", "m.xml", b"", 0, path="m.xml"))
+        read_mjcf(File("mjcf", "", "m.xml", b"", path="m.xml"))
     assert caught.value.code == "missing-extra"

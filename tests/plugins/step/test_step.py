@@ -285,7 +285,7 @@ def test_numbers_that_are_not_finite_end_no_child(tmp_path: Path) -> None:
 def test_the_package_to_install_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "cascadio", None)
     with pytest.raises(Refused, match="pip install 'satcheck\\[step\\]'") as caught:
-        read_step(File("step", "", "a.step", GOOD.encode(), 0))
+        read_step(File("step", "", "a.step", GOOD.encode()))
     assert caught.value.code == "missing-extra"
 
 

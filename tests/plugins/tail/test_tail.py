@@ -143,13 +143,13 @@ def test_what_trimesh_warns_of_is_an_error() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(trimesh, "load_scene", load)
         with pytest.raises(Refused, match="reads a part of it: node left out"):
-            read_tail(File("zae", "", "a.zae", zae(), 0))
+            read_tail(File("zae", "", "a.zae", zae()))
 
 
 def test_the_packages_to_install_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(trimesh, "available_formats", lambda: {"obj"})
     with pytest.raises(Refused) as caught:
-        read_tail(File("3dxml", "", "a.3dxml", threedxml(), 0))
+        read_tail(File("3dxml", "", "a.3dxml", threedxml()))
     assert caught.value.code == "missing-extra"
     assert "pip install 'satcheck[tail]'" in caught.value.message
 
