@@ -67,6 +67,12 @@ class Names(Struct, frozen=True, dict=True):
         return [read[each] for each in near]
 
 
+def reasons(**names: str) -> dict[str, str]:
+    """Return why names are harmless, by name. names: by the reason, with _ for a space, separated
+    by blanks."""
+    return {name: why.replace("_", " ") for why, text in names.items() for name in text.split()}
+
+
 class UnknownNames:
     """Unknown names, each once for a kind of place, with its first place."""
 

@@ -12,17 +12,12 @@ from functools import cache
 
 from pxr import Usd, UsdGeom
 
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, reasons
 
 
 def named(text: str) -> frozenset[str]:
     """The words of a text."""
     return frozenset(text.split())
-
-
-def _all(text: str, reason: str) -> dict[str, str]:
-    """Why the names of a text are harmless."""
-    return dict.fromkeys(text.split(), reason)
 
 
 # Properties of schemas that make, move, hide or shape a body.
@@ -64,37 +59,33 @@ OPS = Names(frozenset(filter(None, map(str, _KINDS))))
 PROPERTIES = {
     "boundaryInterpolation": "an old name about subdivision; the control cage is checked",
     "proxyPrim": "a prim that is drawn instead, and is a prim of its own",
-    **_all("extent extentsHint", "bounds of what is below"),
+    **reasons(bounds_of_what_is_below="extent extentsHint"),
 }
 APIS = Names(
     named(
         """PhysicsCollisionAPI PhysicsMeshCollisionAPI PhysicsRigidBodyAPI PhysicsFilteredPairsAPI
         SkelBindingAPI GeomModelAPI CollectionAPI"""
     ),
-    _all(
-        "Physx* Newton* Mjc* Isaac* Robot* Preliminary_Physics*",
-        "of a simulator: materials, solvers, sensors, joints",
-    )
-    | _all(
-        """Pxr* RiMaterial* RiSpline* RiLight* RiTexture* RiRenderPass* Karma* HoudiniEditable*
-        HoudiniCamera* HoudiniViewport* HoudiniSelectable* Arnold* Redshift* Light* *LightAPI
-        *LightFilterAPI""",
-        "of a renderer",
-    )
-    | _all("Omni* Semantic* SceneGraph* Nv*", "of a program: metadata"),
+    reasons(
+        materials_solvers_sensors_and_joints_of_a_simulator="""Physx* Newton* Mjc* Isaac* Robot*
+        Preliminary_Physics*""",
+        of_a_renderer="""Pxr* RiMaterial* RiSpline* RiLight* RiTexture* RiRenderPass* Karma*
+        HoudiniEditable* HoudiniCamera* HoudiniViewport* HoudiniSelectable* Arnold* Redshift* Light*
+        *LightAPI *LightFilterAPI""",
+        metadata_of_a_program="Omni* Semantic* SceneGraph* Nv*",
+    ),
 )
 TYPES = Names(
     named(
         """Mesh TetMesh Sphere Cube Cylinder Cylinder_1 Cone Capsule Capsule_1 Plane Xform Scope
         PointInstancer SkelRoot"""
     ),
-    _all("Omni* ComputeGraph* Backdrop", "graphs and settings of a program")
-    | _all("Isaac* Physx* Newton* Mjc*", "settings of a simulator")
-    | _all("Pxr*Filter Pxr*Light Pxr*Camera", "of a renderer")
-    | _all(
-        """Preliminary_Action Preliminary_Behavior Preliminary_Trigger Preliminary_ReferenceImage
-        Preliminary_AnchoringAPI RealityKit*""",
-        "behaviour in augmented reality",
+    reasons(
+        graphs_and_settings_of_a_program="Omni* ComputeGraph* Backdrop",
+        settings_of_a_simulator="Isaac* Physx* Newton* Mjc*",
+        of_a_renderer="Pxr*Filter Pxr*Light Pxr*Camera",
+        behaviour_in_augmented_reality="""Preliminary_Action Preliminary_Behavior
+        Preliminary_Trigger Preliminary_ReferenceImage Preliminary_AnchoringAPI RealityKit*""",
     ),
 )
 GEOMETRY = TYPES.read - named("Xform Scope SkelRoot")

@@ -18,7 +18,7 @@ import msgspec
 from msgspec import UNSET, Meta, Struct, UnsetType
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.vocabulary import Names, UnknownNames
+from satcheck.scene.vocabulary import Names, UnknownNames, reasons
 from satcheck.scene.words import why_unreadable
 
 DRACO = "KHR_draco_mesh_compression"
@@ -256,13 +256,8 @@ def _typed(tree: dict[str, Any]) -> _Lists:
         return checked(tree | later, _Lists, "glTF")
 
 
-def _reasons(**names: str) -> dict[str, str]:
-    """Return the reason by name. names: for each reason, with _ for a space, the names."""
-    return {name: why.replace("_", " ") for why, text in names.items() for name in text.split()}
-
-
 # Extensions that place no geometry and change none.
-HARMLESS_EXTENSIONS = _reasons(
+HARMLESS_EXTENSIONS = reasons(
     appearance="""
         KHR_materials_anisotropy KHR_materials_bump KHR_materials_clearcoat
         KHR_materials_cmnBlinnPhong KHR_materials_cmnConstant KHR_materials_cmnLambert
@@ -329,11 +324,11 @@ EXTENSIONS = Names(
 
 # Extensions that move all of the geometry even where they are optional.
 _MOVING = frozenset({"CESIUM_RTC"})
-_FREE = {"name": "a name", "extras": "data of an application"}
-_APPEARANCE = dict.fromkeys(
-    ("NORMAL*", "TANGENT*", "TEXCOORD*", "COLOR*", "BINORMAL*", "BITANGENT*", "BATCHID"),
-    "appearance",
-) | {"_*": "data of an application"}
+_FREE = reasons(a_name="name", data_of_an_application="extras")
+_APPEARANCE = reasons(
+    appearance="NORMAL* TANGENT* TEXCOORD* COLOR* BINORMAL* BITANGENT* BATCHID",
+    data_of_an_application="_*",
+)
 
 
 def names_of(kind: type[Struct], **harmless: str) -> Names:
@@ -360,14 +355,13 @@ EXTENSIONS_OF = {
 PLACES = {
     "file": names_of(
         _Lists,
-        **dict.fromkeys(("materials", "textures", "images", "samplers"), "appearance"),
-        cameras="no extent",
+        **reasons(appearance="materials textures images samplers", no_extent="cameras"),
     ),
     "asset": names_of(
         Asset,
-        **_reasons(
-            about_the_file="generator copyright author description license profile source title "
-            "premultipliedAlpha"
+        **reasons(
+            about_the_file="""generator copyright author description license profile source title
+                premultipliedAlpha"""
         ),
     ),
     "scene": names_of(Scene),

@@ -11,7 +11,7 @@ from msgspec import Struct
 
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.xml_tree import Element
-from satcheck.scene.vocabulary import Names, UnknownNames
+from satcheck.scene.vocabulary import Names, UnknownNames, reasons
 
 CONFIGS = "metadata/*model*.config"  # in lower case
 # The parts of a package, in lower case. Programs put their own into folders of their own; those of
@@ -25,12 +25,14 @@ _PRINTING = """slic3r.config slic3r_pe.config superslicer.config print_profile.c
 SIDE_FILES = Names(
     frozenset({"_rels/.rels", "metadata/slic3r_pe_model.config", "metadata/model_settings.config"}),
     {
-        CONFIGS: "read",
-        "*/_rels/*": "of other parts",
-        "*.model": "it counts where a model names it",
         **dict.fromkeys((f"metadata/{name}" for name in _PRINTING.split()), "printing"),
-        **dict.fromkeys(("*.png", "*.jpg", "*.jpeg", "*.svg", "*.webp"), "a picture"),
-        **dict.fromkeys(("*.prop", "metadata/*core*.xml"), "about the file"),
+        **reasons(
+            read=CONFIGS,
+            of_other_parts="*/_rels/*",
+            it_counts_where_a_model_names_it="*.model",
+            a_picture="*.png *.jpg *.jpeg *.svg *.webp",
+            about_the_file="*.prop metadata/*core*.xml",
+        ),
     },
 )
 # What the elements of a config may hold.
@@ -42,8 +44,7 @@ _ELEMENTS = {
         ("volume", "part"),
         Names(
             frozenset({"metadata"}),
-            dict.fromkeys(("mesh", "mesh_stat"), "of the repair")
-            | dict.fromkeys(("*text*", "*shape"), "what the mesh was made of"),
+            reasons(of_the_repair="mesh mesh_stat", what_the_mesh_was_made_of="*text* *shape"),
         ),
     ),
 }

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from satcheck.scene.files.xml_tree import UNDECLARED, split_name
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, reasons
 
 CORE = frozenset(
     {
@@ -45,64 +45,56 @@ _GEOMETRY = frozenset(
     }
 )
 FULL = frozenset({"s:meshresolution", "pa:modelresolution"})  # the mesh counts if "fullres"
-_PRINTING = {"printable": "it is checked all the same", "slic3rpe:*": "printing"}
-_PRINTING |= {"BambuStudio:*": "printing", "cura:*": "printing"}
-_ABOUT = {
-    "xml:*": "of XML",
-    "xsi:*": "of XML",
-    "p:UUID": "a name",
-    "partnumber": "a name",
-    **_PRINTING,
-}
+_ABOUT = reasons(
+    of_XML="xml:* xsi:*",
+    a_name="p:UUID partnumber",
+    it_is_checked_all_the_same="printable",
+    printing="slic3rpe:* BambuStudio:* cura:*",
+)
 
 
 def _names(read: str, **harmless: str) -> Names:
-    return Names(frozenset(read.split()), _ABOUT | harmless)
+    return Names(frozenset(read.split()), _ABOUT | reasons(**harmless))
 
 
 # By the element of the core namespace.
 ATTRIBUTES = {
     "model": _names(
         "unit requiredextensions",
-        recommendedextensions="nothing depends on them",
-        lang="a language",
-        preview="a picture",
-        **{"mc:Ignorable": "names of its namespaces count for no body"},
+        nothing_depends_on_them="recommendedextensions",
+        a_language="lang",
+        a_picture="preview",
+        names_of_its_namespaces_count_for_no_body="mc:Ignorable",
     ),
     "object": _names(
         "id type s:meshresolution pa:modelresolution",
-        name="a name",
-        **dict.fromkeys(("colorid", "materialid", "pid", "pindex"), "appearance"),
-        thumbnail="a picture",
-        volumeid="the material of the inside",
+        a_name="name",
+        appearance="colorid materialid pid pindex",
+        a_picture="thumbnail",
+        the_material_of_the_inside="volumeid",
     ),
     "component": _names("objectid transform p:path"),
     "item": _names("objectid transform p:path"),
     "vertex": _names("x y z"),
     "triangle": _names(
         "v1 v2 v3",
-        **dict.fromkeys(("colorid", "materialid", "pid"), "appearance"),
-        **dict.fromkeys(("p1", "p2", "p3", "cv1", "cv2", "cv3"), "appearance"),
-        paint_color="printing",
-        paint_seam="printing",
-        paint_supports="printing",
-        paint_fuzzy_skin="printing",
-        face_property="printing",
+        appearance="colorid materialid pid p1 p2 p3 cv1 cv2 cv3",
+        printing="paint_color paint_seam paint_supports paint_fuzzy_skin face_property",
     ),
     **dict.fromkeys(
         ("build", "resources", "mesh", "vertices", "triangles", "components"), _names("")
     ),
 }
-_DATA = {"metadata": "data", "metadatagroup": "data", "slic3rpe:*": "printing"}
-_DATA |= {"dc:*": "data", "dcterms:*": "data"}
-# Those without a prefix are of the core specification, and of drafts of it.
-_LOOKS = """basematerials color colorgroup compositematerials material multiproperties texture
-    texture2d texture2dgroup"""
+_DATA = reasons(data="metadata metadatagroup dc:* dcterms:*", printing="slic3rpe:*")
 CHILDREN = {
     "model": Names(frozenset({"resources", "build"}), _DATA),
     "resources": Names(
         frozenset({"object"}),
-        dict.fromkeys(_LOOKS.split(), "appearance") | {"*:*": "it counts where an object names it"},
+        reasons(  # those without a prefix are of the core specification, and of drafts of it
+            appearance="""basematerials color colorgroup compositematerials material multiproperties
+                texture texture2d texture2dgroup""",
+            it_counts_where_an_object_names_it="*:*",
+        ),
     ),
     "object": Names(frozenset({"mesh", "components"}), _DATA),
     "mesh": Names(

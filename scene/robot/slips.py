@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
 from collections.abc import Iterable, Mapping
 
 from msgspec import Struct
@@ -10,7 +11,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.files.readers import GeometryKind
 from satcheck.scene.files.xml_tree import Element, RefusedElement
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.vocabulary import Names
+from satcheck.scene.vocabulary import Names, reasons
 
 
 class Place(Struct, frozen=True):
@@ -30,30 +31,19 @@ class Place(Struct, frozen=True):
     text: bool = False
 
 
-_ELEMENTS_ANYWHERE = dict.fromkeys(("xacro:property", "xacro:arg", "xacro:macro"), "a definition")
-_ATTRIBUTES_ANYWHERE = dict.fromkeys(
-    ("xmlns", "xmlns:*", "xml:*", "xsi:*"), "says how names are written"
-)
+_ELEMENTS_ANYWHERE = reasons(a_definition="xacro:property xacro:arg xacro:macro")
+_ATTRIBUTES_ANYWHERE = reasons(says_how_names_are_written="xmlns xmlns:* xml:* xsi:*")
 _IN_NUMBERS = "0123456789+-.,eE \t\r\n"
 
 
-def elements(read: str, *harmless: Mapping[str, str]) -> Names:
-    """Return the names of children. read: separated by blanks."""
-    return _names(read, _ELEMENTS_ANYWHERE, *harmless)
+def elements(read: str, *harmless: dict[str, str], **more: str) -> Names:
+    """Return the names of children. read: separated by blanks. more: as of `reasons`."""
+    known = ChainMap(reasons(**more), _ELEMENTS_ANYWHERE, *harmless)
+    return Names(frozenset(read.split()), dict(known))
 
 
-def attributes(read: str, *harmless: Mapping[str, str]) -> Names:
-    return _names(read, _ATTRIBUTES_ANYWHERE, *harmless)
-
-
-def _names(read: str, *harmless: Mapping[str, str]) -> Names:
-    known = {name: reason for names in harmless for name, reason in names.items()}
-    return Names(frozenset(read.split()), known)
-
-
-def because(reason: str, names: str) -> dict[str, str]:
-    """Return the names, separated by blanks, with the reason why they are harmless."""
-    return dict.fromkeys(names.split(), reason)
+def attributes(read: str, **harmless: str) -> Names:
+    return Names(frozenset(read.split()), _ATTRIBUTES_ANYWHERE | reasons(**harmless))
 
 
 class Slips:

@@ -14,34 +14,31 @@ from satcheck.scene.issue import Issue
 from satcheck.scene.opening import NOTHING_ELSE, Permitted
 from satcheck.scene.robot.model import State, Values
 from satcheck.scene.robot.reading import read_tree
-from satcheck.scene.robot.slips import Place, Slips, attributes, because, elements
+from satcheck.scene.robot.slips import Place, Slips, attributes, elements
 
-_PLANNING = "it plans, and exempts and moves no body"
-_ENDS = "name type parent_frame child_link parent_link group parent_group component_name"
 _PLANNED = Place(
-    elements("", because(_PLANNING, "chain link joint group passive_joint")),
-    attributes("", because(_PLANNING, _ENDS)),
+    elements("", it_plans="chain link joint group passive_joint"),
+    attributes(
+        "",
+        it_plans="""name type parent_frame child_link parent_link group parent_group
+            component_name""",
+    ),
 )
-_PAIR = Place(attributes=attributes("link1 link2", because("words", "reason")))
+_PAIR = Place(attributes=attributes("link1 link2", words="reason"))
 ROBOT = Place(
     elements(
         "disable_collisions disable_default_collisions enable_collisions group_state",
-        because(
-            _PLANNING,
-            "group end_effector virtual_joint passive_joint joint_property chain link_property "
-            "group_property",
-        ),
+        it_plans_and_exempts_and_moves_no_body="""group end_effector virtual_joint passive_joint
+            joint_property chain link_property group_property""",
     ),
-    attributes("name", because("words about the file", "version")),
+    attributes("name", words_about_the_file="version"),
     inside={
         "group": _PLANNED,
         "end_effector": _PLANNED,
         "virtual_joint": _PLANNED,
         "disable_collisions": _PAIR,
         "enable_collisions": _PAIR,
-        "disable_default_collisions": Place(
-            attributes=attributes("link", because("words", "reason"))
-        ),
+        "disable_default_collisions": Place(attributes=attributes("link", words="reason")),
         "group_state": Place(
             elements("joint"),
             attributes("name group"),
