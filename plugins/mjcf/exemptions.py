@@ -5,32 +5,19 @@ always checks."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations_with_replacement, product
-from typing import Any, NamedTuple
+from itertools import product
+from typing import Any
 
 import mujoco
 
-from satcheck.scene.robot.model import Exemption
+from satcheck.scene.robot.model import Exemption, Mask, told_apart
 
 _WORLD = 0
 _STATIC = "static"
 
 
-class Mask(NamedTuple):
-    """Two geoms are checked if the type of one and the affinity of the other share a bit."""
-
-    contype: int
-    conaffinity: int
-
-    @property
-    def collides(self) -> bool:
-        return bool(self.contype or self.conaffinity)
-
-    def meets(self, other: Mask) -> bool:
-        return bool(self.contype & other.conaffinity or other.contype & self.conaffinity)
-
-    def __str__(self) -> str:
-        return f"contype {self.contype}, conaffinity {self.conaffinity}"
+def mask_of(contype: int, conaffinity: int) -> Mask:
+    return Mask(contype, conaffinity, f"contype {contype}, conaffinity {conaffinity}")
 
 
 class Exemptions:
@@ -45,9 +32,7 @@ class Exemptions:
         self._welded: dict[int, list[str]] = {}
         for weld, body in zip(m.body_weldid.tolist(), bodies, strict=True):
             self._welded.setdefault(weld, []).append(body)
-        pairs = combinations_with_replacement(sorted({*masks}), 2)
-        self._apart = [(a, b) for a, b in pairs if not a.meets(b)]
-        self._told_apart = {mask for pair in self._apart for mask in pair}
+        self._told_apart, self._of_masks = told_apart(masks, "MJCF")
         self._pairs = list(zip(m.pair_geom1.tolist(), m.pair_geom2.tolist(), strict=True))
         self._paired = {geom for pair in self._pairs for geom in pair}
 
@@ -60,16 +45,15 @@ class Exemptions:
                 groups.append(_STATIC)
             elif len(self._welded[weld]) > 1:
                 groups.append(self._weld(weld))
-        if mask in self._told_apart:
-            groups.append(str(mask))
+        if mask.name in self._told_apart:
+            groups.append(mask.name)
         if geom is not None and geom in self._paired:
             groups.append(self._geom(geom))
         return tuple(groups)
 
     def exempt(self) -> Iterator[Exemption]:
         yield from self._by_weld()
-        for a, b in self._apart:
-            yield Exemption(str(a), str(b), f"MJCF: {a} and {b} share no bit", of_groups=True)
+        yield from self._of_masks
         yield from self._by_parent()
         for signature in self._model.exclude_signature.tolist():
             a, b = signature >> 16, signature & 0xFFFF
@@ -84,12 +68,11 @@ class Exemptions:
         return bool(self._model.body_treeid[body] < 0)
 
     def _by_weld(self) -> Iterator[Exemption]:
-        yield Exemption(_STATIC, _STATIC, "MJCF: both static", of_groups=True)
+        yield Exemption.within(_STATIC, "MJCF: both static")
         for weld, names in self._welded.items():
             if len(names) > 1 and not self._is_static(weld):
-                group = self._weld(weld)
                 reason = "MJCF: welded together, no joint between"
-                yield Exemption(group, group, reason, of_groups=True)
+                yield Exemption.within(self._weld(weld), reason)
 
     def _by_parent(self) -> Iterator[Exemption]:
         """Welded bodies count as one; no body is exempt from those that are welded to the world."""

@@ -19,7 +19,7 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Primitive, Sphere
 from satcheck.core.transform import compose
 from satcheck.plugins.mjcf.compiling import Compiled, Key, numbers, part_name, pose_of
-from satcheck.plugins.mjcf.exemptions import Exemptions, Mask
+from satcheck.plugins.mjcf.exemptions import Exemptions, mask_of
 from satcheck.plugins.mjcf.joints import joints_of, rest_poses, values_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import Refusal, UniqueNames
@@ -60,12 +60,12 @@ class _Reader:
         self._bodies = self._names("body", m.nbody)
         self._geoms = self._names("geom", m.ngeom)
         self._joints = self._names("joint", m.njnt)
-        self._masks = list(map(Mask, m.geom_contype.tolist(), m.geom_conaffinity.tolist()))
+        self._masks = list(map(mask_of, m.geom_contype.tolist(), m.geom_conaffinity.tolist()))
         paired = {*m.pair_geom1.tolist(), *m.pair_geom2.tolist()}
         self._checked = [
             k for k, mask in enumerate(self._masks) if (mask.collides or k in paired) == is_solid
         ]
-        flexes = map(Mask, m.flex_contype.tolist(), m.flex_conaffinity.tolist())
+        flexes = map(mask_of, m.flex_contype.tolist(), m.flex_conaffinity.tolist())
         named = zip(self._names("flex", m.nflex), flexes, strict=True)
         self._flexes = [(name, mask) for name, mask in named if mask.collides or not is_solid]
         solid = [*(self._masks[k] for k in self._checked), *(mask for _, mask in self._flexes)]

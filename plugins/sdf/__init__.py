@@ -1,6 +1,6 @@
 """SDFormat (.sdf, .world): worlds and models -> one robot with all links.
 
 The format: http://sdformat.org/spec. `reading` collects models, links and joints, `frames` places
-them, `trees` of robots orders the joints, and `exemptions` says which pairs are not checked.
+them, and `trees` of robots orders the joints.
 README.md says what is read.
 """

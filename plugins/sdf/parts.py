@@ -19,7 +19,7 @@ from satcheck.scene.robot.elements import (
     refused,
 )
 from satcheck.scene.robot.kinematics import inverse
-from satcheck.scene.robot.model import Collision, MeshReference
+from satcheck.scene.robot.model import Collision, Mask, MeshReference
 from satcheck.scene.robot.slips import Slips
 
 ALL_BITS = 0xFFFF
@@ -27,24 +27,7 @@ _HULL = "convex_hull"  # the optimization of a mesh
 _EMPTY = "empty"
 
 
-class Mask(NamedTuple):
-    """Two collisions are checked if the category of one and the mask of the other share a bit."""
-
-    category: int = ALL_BITS
-    collide: int = ALL_BITS
-
-    def meets(self, other: Mask) -> bool:
-        return bool(self.category & other.collide or other.category & self.collide)
-
-    def __str__(self) -> str:
-        if self == ANY:
-            return "any collide_bitmask"
-        name = f"collide_bitmask {self.collide:#06x}"
-        alike = self.category == self.collide
-        return name if alike else f"{name}, category_bitmask {self.category:#06x}"
-
-
-ANY = Mask(-1, -1)  # all bits: of a collision whose masks are not known
+ANY = Mask(-1, -1, "any collide_bitmask")  # of a collision whose masks are not known
 
 
 class Part(NamedTuple):
@@ -120,7 +103,8 @@ def frame_named(pose: Element | None, scope: Scope) -> Name | None:
 def _mask(element: Element) -> Mask:
     surface = element.only("surface")
     contact = surface.only("contact") if surface else None
-    if contact is None:
-        return Mask()
     collide = bits(contact, "collide_bitmask", ALL_BITS)
-    return Mask(bits(contact, "category_bitmask", collide), collide)
+    category = bits(contact, "category_bitmask", collide)
+    name = f"collide_bitmask {collide:#06x}"
+    alike = category == collide
+    return Mask(category, collide, name if alike else f"{name}, category_bitmask {category:#06x}")

@@ -7,11 +7,13 @@ errors refuse the file, with the line.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import starmap
 from pathlib import Path
 
-from satcheck.plugins.sdf.contents import Contents
-from satcheck.plugins.sdf.exemptions import exempt
+from msgspec.structs import replace
+
+from satcheck.plugins.sdf.contents import Contents, LinkEntry
 from satcheck.plugins.sdf.frames import WORLD
 from satcheck.plugins.sdf.includes import Includes
 from satcheck.plugins.sdf.joints import JointEntry, joint_of
@@ -20,7 +22,15 @@ from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.readers import File
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.elements import check_mimics
-from satcheck.scene.robot.model import Exemption, Joint, Link, Robot, RobotDocument
+from satcheck.scene.robot.model import (
+    Collision,
+    Exemption,
+    Joint,
+    Link,
+    Robot,
+    RobotDocument,
+    told_apart,
+)
 from satcheck.scene.robot.packages import FilePlaces
 from satcheck.scene.robot.reading import read_tree
 from satcheck.scene.robot.slips import Slips
@@ -42,7 +52,7 @@ def read_sdf(file: File) -> RobotDocument:
     elements = {joint.path: joint.element for joint in contents.joints}
     joints = [made for joint in contents.joints if (made := _joint(joint, contents, slips))]
     parts = {path: _parts(path, contents) for path in contents.links}
-    collisions, exempted = exempt(contents.links, parts)
+    collisions, exempted = _exempt(contents.links, parts)
     links = {
         path: Link(
             name=path,
@@ -91,6 +101,27 @@ def _joint(joint: JointEntry, contents: Contents, slips: Slips) -> Joint | None:
     cause = f"joint {joint.path!r} {cause}: it is ignored"
     slips.note("joint-not-moved", joint.element, cause)
     return None
+
+
+def _exempt(
+    links: Mapping[str, LinkEntry], parts: Mapping[str, Sequence[Part]]
+) -> tuple[dict[str, tuple[Collision, ...]], list[Exemption]]:
+    """(the collisions of each link, with their groups, the exemptions but for those of joints).
+    parts: of each link."""
+    apart, exempted = told_apart((part.mask for own in parts.values() for part in own), "SDF")
+    reasons: dict[str, str] = {}
+    collisions = {}
+    for path, link in links.items():
+        own = {"static": "SDF: both static"} if link.static else {}
+        if not link.self_collide:
+            reason = f"SDF: links of model {link.model} without self_collide"
+            own[f"model {link.model}"] = reason
+        reasons |= own
+        collisions[path] = tuple(
+            replace(part.collision, groups=(*own, *apart.intersection([part.mask.name])))
+            for part in parts[path]
+        )
+    return collisions, [*exempted, *starmap(Exemption.within, reasons.items())]
 
 
 def _joined(joints: Iterable[Joint], contents: Contents) -> Iterator[Exemption]:

@@ -53,9 +53,9 @@ def flag(element: Element, attribute: str) -> bool:
     return truth(element, element.attributes.get(attribute) or "false")
 
 
-def bits(element: Element, tag: str, default: int) -> int:
+def bits(element: Element | None, tag: str, default: int) -> int:
     """A mask of bits, such as 0x0f."""
-    child = element.only(tag)
+    child = element.only(tag) if element else None
     if child is None:
         return default
     if not _BITS.fullmatch(child.text):

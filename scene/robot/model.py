@@ -7,7 +7,9 @@ for column vectors. This module reads no files and stores no values of joints.
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Iterable
+from itertools import combinations_with_replacement
+from typing import Literal, NamedTuple
 
 from msgspec import Struct
 
@@ -137,6 +139,35 @@ class Exemption(Struct, frozen=True):
     reason: str
     of_groups: bool = False
     checked: bool = False
+
+    @classmethod
+    def within(cls, group: str, reason: str) -> Exemption:
+        """Return that of the members of one group."""
+        return cls(group, group, reason, of_groups=True)
+
+
+class Mask(NamedTuple):
+    """Two collisions are checked if the bits of one and those that the other meets share one.
+    name: of the group of the collisions with this mask."""
+
+    bits: int
+    meets: int
+    name: str
+
+    @property
+    def collides(self) -> bool:
+        return bool(self.bits or self.meets)
+
+
+def told_apart(masks: Iterable[Mask], format_name: str) -> tuple[set[str], list[Exemption]]:
+    """(the groups of masks that have to be told apart, the exemptions of those that share no
+    bit)."""
+    exempt = [
+        Exemption(a.name, b.name, f"{format_name}: {a.name} and {b.name} share no bit", True)
+        for a, b in combinations_with_replacement(sorted({*masks}), 2)
+        if not (a.bits & b.meets or b.bits & a.meets)
+    ]
+    return {name for each in exempt for name in (each.a, each.b)}, exempt
 
 
 class State(Struct, frozen=True):
