@@ -13,7 +13,6 @@ from pxr import Sdf, Usd
 
 from satcheck.plugins.usd import names
 from satcheck.plugins.usd.walk import has_geometry_below
-from satcheck.scene.document import Refusal
 
 # One of these, with primPath, is what a set needs to count.
 _WHOLE = (
@@ -21,19 +20,6 @@ _WHOLE = (
     names.named("templateAssetPath templateStride templateStartTime templateEndTime"),
 )
 _FIRST = Usd.TimeCode.EarliestTime()
-
-
-def missing_clips(stage: Any) -> dict[str, Refusal]:
-    """Return the refusal of each prim that names a value clip which is not there."""
-    lost = {}
-    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
-        api = Usd.ClipsAPI(prim)
-        for name in prim.GetMetadata("clips") or ():
-            for path in api.GetClipAssetPaths(name) or ():
-                if not path.resolvedPath:
-                    message = f"missing value clip {path.path!r}"
-                    lost[str(prim.GetPath())] = Refusal("missing-resource", message)
-    return lost
 
 
 def why_not_applied(prim: Any) -> Iterator[str]:

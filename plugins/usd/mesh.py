@@ -1,12 +1,14 @@
-"""Meshes of USD as triangles: polygons of any number of corners, holes, both orientations."""
+"""Meshes of USD as triangles: polygons of any number of corners, holes, both orientations, and
+meshes that a skeleton moves."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
-from pxr import UsdGeom
+from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
 from satcheck.scene.document import NO_SURFACE, NumberFormat, RawMesh
 from satcheck.scene.errors import Refused
@@ -14,11 +16,7 @@ from satcheck.scene.files.polygons import triangles_of
 
 Ints = NDArray[np.int64]
 Points = NDArray[np.floating[Any]]
-_FORMATS: dict[str, NumberFormat] = {
-    "float16": "float16",
-    "float32": "float32",
-    "float64": "float64",
-}
+_FORMATS = get_args(NumberFormat)
 
 
 def read_mesh(prim: Any, time: Any, unit: str) -> RawMesh:
@@ -38,7 +36,7 @@ def read_mesh(prim: Any, time: Any, unit: str) -> RawMesh:
     corners, lengths, warnings = _solid_faces(
         corners, lengths, _ints(mesh.GetHoleIndicesAttr(), time)
     )
-    triangles = _triangles(points, corners, lengths)
+    triangles = triangles_of(points, corners, lengths)
     return _raw(points, _outward(mesh, triangles, time), unit, warnings)
 
 
@@ -104,12 +102,6 @@ def _solid_faces(
     return corners, lengths, tuple(warnings)
 
 
-def _triangles(points: Points, corners: Ints, lengths: Ints) -> Ints:
-    if (lengths == 3).all():
-        return corners.reshape(-1, 3)
-    return triangles_of(points, corners, lengths)
-
-
 def _outward(mesh: Any, triangles: Ints, time: Any) -> Ints:
     left = mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded
     return triangles[:, ::-1] if left else triangles
@@ -124,7 +116,90 @@ def _raw(
     return RawMesh(
         vertices=points.astype("<f8").tobytes(),
         triangles=triangles.astype("<u4").tobytes(),
-        number_format=_FORMATS[points.dtype.name],
+        number_format=points.dtype.name,  # type: ignore[arg-type]  # one of _FORMATS
         units=unit,
         warnings=warnings,
     )
+
+
+class Skinning:
+    """Moves the points of skinned meshes as their skeleton and its animation do.
+
+    A mesh that is bound to a skeleton is drawn where the joints stand, not where its points are
+    stored. UsdSkel computes both blend shapes and joints; its points are in the space of the
+    skeleton. time: a Usd.TimeCode.
+    """
+
+    def __init__(self, time: Any) -> None:
+        self._time = time
+        self._skeletons = UsdSkel.Cache()
+        self._populated: set[Any] = set()
+        self._places = UsdGeom.XformCache(time)
+
+    def is_bound(self, prim: Any) -> bool:
+        """Whether joints or blend shapes move the points of the mesh."""
+        query = self._query(prim)
+        return bool(query) and (query.HasJointInfluences() or query.HasBlendShapes())
+
+    def moved(self, prim: Any, mesh: RawMesh) -> RawMesh:
+        """The mesh with the points that the skeleton gives it. Raises Refused."""
+        query, skeleton = self._query(prim), UsdSkel.BindingAPI(prim).GetInheritedSkeleton()
+        joints = self._skeletons.GetSkelQuery(skeleton) if skeleton else None
+        if not joints:
+            return mesh
+        points = Vt.Vec3fArray.FromNumpy(
+            np.frombuffer(mesh.vertices, "<f8").reshape(-1, 3).astype("<f4")
+        )
+        self._blend(prim, query, joints, points)
+        if query.HasJointInfluences():
+            self._bend(prim, query, joints, points)
+        moved = np.array(points, "<f8").reshape(-1, 3)
+        if not np.isfinite(moved).all():
+            raise Refused("non-finite", "its skeleton gives it coordinates that are none")
+        return replace(mesh, vertices=moved.astype("<f8").tobytes(), number_format="float32")
+
+    def _query(self, prim: Any) -> Any:
+        root = UsdSkel.Root.Find(prim)
+        if not root:
+            return None
+        if root.GetPrim() not in self._populated:
+            self._skeletons.Populate(root, Usd.TraverseInstanceProxies())
+            self._populated.add(root.GetPrim())
+        return self._skeletons.GetSkinningQuery(prim)
+
+    def _blend(self, prim: Any, query: Any, joints: Any, points: Any) -> None:
+        animation = joints.GetAnimQuery()
+        if not query.HasBlendShapes() or not animation:
+            return
+        weights = animation.ComputeBlendShapeWeights(self._time)
+        mapper = query.GetBlendShapeMapper()
+        if weights and mapper:
+            weights = mapper.Remap(weights)
+        if not weights:
+            return
+        shapes = UsdSkel.BlendShapeQuery(UsdSkel.BindingAPI(prim))
+        shape_weights, shape_numbers, sub_numbers = shapes.ComputeSubShapeWeights(weights)
+        moved = shapes.ComputeDeformedPoints(
+            shape_weights,
+            shape_numbers,
+            sub_numbers,
+            shapes.ComputeBlendShapePointIndices(),
+            shapes.ComputeSubShapePointOffsets(),
+            points,
+        )
+        if not moved:
+            raise Refused("bad-record", "its blend shapes do not fit its points")
+
+    def _bend(self, prim: Any, query: Any, joints: Any, points: Any) -> None:
+        turns = joints.ComputeSkinningTransforms(self._time)
+        mapper = query.GetJointMapper()
+        if turns and mapper:
+            turns = mapper.RemapTransforms(turns, Vt.Matrix4dArray())
+        if not turns or not query.ComputeSkinnedPoints(turns, points, self._time):
+            raise Refused("bad-record", "its skeleton does not fit its points")
+        here = self._places.GetLocalToWorldTransform(prim)
+        there = self._places.GetLocalToWorldTransform(joints.GetPrim())
+        back = there * here.GetInverse()
+        if back != Gf.Matrix4d(1.0):
+            for number, point in enumerate(points):
+                points[number] = Gf.Vec3f(back.Transform(Gf.Vec3d(point)))

@@ -95,22 +95,17 @@ class _Rules:
     def _pairs(self, one: str, other: str) -> Iterator[tuple[str, str]]:
         """The names of two prims in each instance: the other one is in the same instance, or in
         one around it, or outside of all. Prims that share no instance are no pair."""
-        others = self._names.get(other, {})
-        swapped = self._names.get(one, {})
-        for frame, name in self._names.get(one, {}).items():
-            if (around := self._nearest(frame, others)) is not None:
-                yield name, others[around]
-        for frame, name in others.items():
-            around = self._nearest(frame, swapped)
-            if around is not None and around != frame:
-                yield swapped[around], name
+        names = [self._names.get(path, {}) for path in (one, other)]
+        for frame in names[0] | names[1]:
+            a, b = (self._nearest(frame, known) for known in names)
+            if a is not None and b is not None:
+                yield a, b
 
-    def _nearest(self, frame: str, known: Mapping[str, str]) -> str | None:
-        """The frame, or the first around it, that is among the known ones."""
-        place: str | None = frame
-        while place is not None and place not in known:
-            place = self._around.get(place)
-        return place
+    def _nearest(self, frame: str | None, known: Mapping[str, str]) -> str | None:
+        """The name that is known in the frame, or else in the first around it."""
+        while frame is not None and frame not in known:
+            frame = self._around.get(frame)
+        return None if frame is None else known[frame]
 
     def _group(self, name: str, numbers: Sequence[int]) -> str:
         if name not in self._made:

@@ -13,12 +13,11 @@ from satcheck.core.transform import Transform
 from satcheck.plugins.usd.choice import Choice, hidden_geometry, not_read, without_extent
 from satcheck.plugins.usd.joints import Joints
 from satcheck.plugins.usd.layers import look_at_layers
-from satcheck.plugins.usd.mesh import read_mesh, read_tetrahedra
+from satcheck.plugins.usd.mesh import Skinning, read_mesh, read_tetrahedra
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.physics import with_physics
 from satcheck.plugins.usd.shapes import NoSuchShape, facets_around, placed_shape, shape_of
-from satcheck.plugins.usd.skinning import Skinning
-from satcheck.plugins.usd.stage import Remarks, Stage, said, unknown_variants
+from satcheck.plugins.usd.stage import Remarks, Stage, missing_parts, said
 from satcheck.plugins.usd.unknown import look_at_stage
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
@@ -54,7 +53,7 @@ class _Reading:
         self._refuse_lost_in_instances()
         look_at_stage(self._stage.stage, self._choice, self._said)
         look_at_layers(self._stage.stage, self._said)
-        self._lost |= unknown_variants(self._stage.stage)
+        self._lost |= missing_parts(self._stage.stage)
         for placed in Walk(self._stage.stage, self._choice.time).prims():
             self._take(placed)
         for name, reason in self._lost.items():

@@ -27,6 +27,10 @@ _SEGMENTS = 128  # of a circle, where facets stand for a shape: 0.1 % of its rad
 class NoSuchShape(Exception):
     """A scaled or sheared shape is not of its kind any more."""
 
+    def __init__(self, shape: Primitive, how: str) -> None:
+        kind = type(shape).__name__.lower()
+        super().__init__(f"a {kind} {how} is no {kind}")
+
 
 # Rows for row vectors: exact quarter turns that take z to the axis.
 _TURNS = {
@@ -127,7 +131,7 @@ def placed_shape(shape: Primitive, matrix: Transform) -> Transform:
     axes = columns / scales
     skew = np.abs(axes.T @ axes - np.eye(3)).max()
     if skew > FLOAT32_NOISE:
-        raise _refusal(shape, "sheared")
+        raise NoSuchShape(shape, "sheared")
     if skew > ORTHOGONALITY / 2:
         left, _, right = np.linalg.svd(axes)
         axes = left @ right
@@ -150,17 +154,12 @@ def _evened(shape: Primitive, scales: NDArray[np.float64]) -> NDArray[np.float64
     elif isinstance(shape, Cylinder | Cone) and _are_even(scales[:2]):
         even[:2] = scales[:2].mean()
     else:
-        raise _refusal(shape, "scaled unevenly")
+        raise NoSuchShape(shape, "scaled unevenly")
     return even
 
 
 def _are_even(scales: NDArray[np.float64]) -> bool:
     return bool(scales.max() - scales.min() <= FLOAT32_NOISE * scales.max())
-
-
-def _refusal(shape: Primitive, how: str) -> NoSuchShape:
-    kind = type(shape).__name__.lower()
-    return NoSuchShape(f"a {kind} {how} is no {kind}")
 
 
 def facets_around(shape: Primitive, unit: str) -> RawMesh:

@@ -11,7 +11,6 @@ from msgspec import Struct
 from pxr import Sdf, Usd, UsdGeom
 
 from satcheck.core.transform import Transform
-from satcheck.plugins.usd.clips import missing_clips
 from satcheck.plugins.usd.names import LOOKS
 from satcheck.plugins.usd.outside import Closed, clips_of, file_of
 from satcheck.scene.document import Refusal
@@ -86,7 +85,6 @@ def open_stage(file: File) -> Stage:
         if not closed.permits(layer.identifier):
             raise closed.refusal(layer.identifier)
     lost, warnings = _composition_errors(stage)
-    lost |= missing_clips(stage)
     unit, scale = _unit(stage, warnings)
     axis = UsdGeom.GetStageUpAxis(stage)
     if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
@@ -146,20 +144,26 @@ def _may_hold_bodies(prim: Any) -> bool:
     return not prim or not (prim.IsAbstract() or prim.GetTypeName() in LOOKS)
 
 
-def unknown_variants(stage: Any) -> dict[str, Refusal]:
-    """Prim -> why a variant that it selects is missing. USD says nothing of these."""
-    lost: dict[str, Refusal] = {}
-    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
-        if not prim.HasVariantSets() or not _may_hold_bodies(prim):
-            continue
-        sets = prim.GetVariantSets()
-        for name in sets.GetNames():
-            variants = sets.GetVariantSet(name)
-            selected, known = variants.GetVariantSelection(), variants.GetVariantNames()
-            if selected and selected not in known:
-                message = f"variant set {name!r} has no variant {selected!r} ({listed(known)})"
-                lost.setdefault(str(prim.GetPath()), Refusal("missing-resource", message))
-    return lost
+def missing_parts(stage: Any) -> dict[str, Refusal]:
+    """Prim -> the value clip, or the variant that it selects, which is not there. USD says nothing
+    of these."""
+    prims = stage.Traverse(Usd.TraverseInstanceProxies())
+    missing = ((str(prim.GetPath()), list(_missing(prim))) for prim in prims)
+    return {path: Refusal("missing-resource", words[0]) for path, words in missing if words}
+
+
+def _missing(prim: Any) -> Iterator[str]:
+    clips = Usd.ClipsAPI(prim)
+    for name in prim.GetMetadata("clips") or ():
+        for path in clips.GetClipAssetPaths(name) or ():
+            if not path.resolvedPath:
+                yield f"missing value clip {path.path!r}"
+    sets = prim.GetVariantSets()
+    for name in sets.GetNames() if _may_hold_bodies(prim) else ():
+        variants = sets.GetVariantSet(name)
+        selected, known = variants.GetVariantSelection(), variants.GetVariantNames()
+        if selected and selected not in known:
+            yield f"variant set {name!r} has no variant {selected!r} ({listed(known)})"
 
 
 def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:

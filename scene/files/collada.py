@@ -320,9 +320,8 @@ def _triangles(group: Element, points: Floats) -> Indices:
         ends = np.cumsum(lengths)
         pieces = (corners[e - n : e] for e, n in zip(ends, lengths, strict=True))
         corners = [corner for piece in pieces for corner in split(piece)]
-    elif any(length > 3 for length in lengths):
-        return triangles_of(points, corners, lengths)
-    return np.array(corners, np.int64).reshape(-1, 3)
+        lengths = [3] * (len(corners) // 3)
+    return triangles_of(points, corners, lengths)
 
 
 def _lengths(group: Element, rows: list[list[int]], stride: int) -> list[int]:

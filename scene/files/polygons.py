@@ -19,6 +19,8 @@ def triangles_of(
     points: (m, 3). corners: of all polygons, one after the other. lengths: the number of corners of
     each. Raises Refused.
     """
+    if (np.asarray(lengths) == 3).all():
+        return np.asarray(corners, np.int64).reshape(-1, 3)
     cut = cut_polygons(
         points.astype("<f8").tobytes(),
         np.asarray(corners, "<u4").tobytes(),
