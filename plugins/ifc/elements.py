@@ -7,7 +7,7 @@ ports, structural analysis and terrain are not.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
@@ -179,8 +179,23 @@ def _name(thing: Any) -> str:
 
 def curved_bodies(model: Any, bodies: Sequence[Any]) -> set[int]:
     """The numbers of bodies that have a curved surface, or may have one from an opening."""
-    seen = _Seen(model)
-    return {body.id() for body in bodies if any(map(seen.is_curved, _representations(body)))}
+    curved, facets = (_classes_in(model, names) for names in (_CURVED, _FACETS))
+    known: dict[int, bool] = {}
+
+    def is_curved(representation: Any) -> bool:
+        key = representation.id()
+        if key not in known:
+            known[key] = any(map(is_curved_item, representation.Items))
+        return known[key]
+
+    def is_curved_item(item: Any) -> bool:
+        if item.is_a("IfcMappedItem"):
+            return is_curved(item.MappingSource.MappedRepresentation)
+        if item.is_a() in facets:
+            return False
+        return any(_is_curved(each, curved) for each in model.traverse(item))
+
+    return {body.id() for body in bodies if any(map(is_curved, _representations(body)))}
 
 
 def _representations(body: Any) -> Iterator[Any]:
@@ -189,42 +204,17 @@ def _representations(body: Any) -> Iterator[Any]:
         yield from material_of(relation.RelatedOpeningElement)
 
 
-class _Seen:
-    """Looks at each representation once."""
-
-    def __init__(self, model: Any) -> None:
-        self._model = model
-        self._curved = _classes_in(model, _CURVED)
-        self._facets = _classes_in(model, _FACETS)
-        self._answers: dict[int, bool] = {}
-
-    def is_curved(self, representation: Any) -> bool:
-        key = representation.id()
-        if key not in self._answers:
-            self._answers[key] = any(map(self._is_curved_item, representation.Items))
-        return self._answers[key]
-
-    def _is_curved_item(self, item: Any) -> bool:
-        if item.is_a("IfcMappedItem"):
-            return self.is_curved(item.MappingSource.MappedRepresentation)
-        if item.is_a() in self._facets:
-            return False
-        return any(map(self._is_curved_instance, self._model.traverse(item)))
-
-    def _is_curved_instance(self, instance: Any) -> bool:
-        kind = instance.is_a()
-        if kind in self._curved:
-            return True
-        if kind == "IfcIndexedPolyCurve":
-            return any(each.is_a() == "IfcArcIndex" for each in instance.Segments or ())
-        return kind.endswith("ProfileDef") and any(_radii(instance))
-
-
-def _radii(profile: Any) -> Iterator[float]:
-    """Of rounded edges, such as those of a rolled section."""
-    for name, value in profile.get_info().items():
-        if name.endswith("Radius") and isinstance(value, float):
-            yield value
+def _is_curved(instance: Any, curved: Collection[str]) -> bool:
+    """curved: classes of instances that make curved surfaces."""
+    kind = instance.is_a()
+    if kind in curved:
+        return True
+    if kind == "IfcIndexedPolyCurve":
+        return any(each.is_a() == "IfcArcIndex" for each in instance.Segments or ())
+    # Rounded edges, such as those of a rolled section.
+    values = instance.get_info().items() if kind.endswith("ProfileDef") else ()
+    radii = (value for name, value in values if name.endswith("Radius"))
+    return any(isinstance(radius, float) and radius for radius in radii)
 
 
 def _classes_in(model: Any, names: Iterable[str]) -> frozenset[str]:

@@ -12,7 +12,7 @@ from typing import Any
 from msgspec import Struct
 
 from satcheck.plugins.ifc.elements import declared, instances_of
-from satcheck.plugins.ifc.failures import Message, logged, start_log
+from satcheck.plugins.ifc.kernel import Message, logged, start_log
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import imported
 from satcheck.scene.files.zip_guard import opened_zip, read_part

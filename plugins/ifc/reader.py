@@ -21,8 +21,6 @@ from satcheck.scene.files.placing import tidy_name
 from satcheck.scene.files.readers import File
 from satcheck.scene.words import listed
 
-_LONGEST_NAME = 60
-
 
 def read_ifc(file: File) -> Document:
     """Return the bodies in metres, z up, sorted by GlobalId. Raises Refused without a file
@@ -50,14 +48,10 @@ def read_ifc(file: File) -> Document:
             if part == len(parts):
                 parts.append(RawPart(paths[number], shape.mesh))
         of_body = (*groups[number], *named.get(number, ()))
-        nodes.append(Item(part, paths[number], matrix, _title(body), of_body))
+        title = f"{body.is_a()} {tidy_name(body.Name, '')}".strip()
+        nodes.append(Item(part, paths[number], matrix, title, of_body))
     said = remarks_on(model, elements, shapes, file.options)
     return Document(tuple(parts), tuple(nodes), tuple(said), UNITS, rules)
-
-
-def _title(body: Any) -> str:
-    name = tidy_name(body.Name, "")
-    return f"{body.is_a()} {name}".strip()
 
 
 def remarks_on(
@@ -67,7 +61,9 @@ def remarks_on(
     options: Mapping[str, Any],
 ) -> Iterator[tuple[str, str]]:
     """(code, message) of each. shapes: of the bodies."""
-    left_out = [*_counts(elements.left_out), *_wholes(elements)]
+    wholes = Counter(whole.is_a() for whole in elements.wholes)
+    left_out = [f"{count} {name}" for name, count in sorted(elements.left_out.items())]
+    left_out += [f"{count} {name} (its parts are)" for name, count in sorted(wholes.items())]
     if left_out:
         yield "left-out", f"no bodies: {', '.join(left_out)}"
     if elements.without:
@@ -84,12 +80,3 @@ def remarks_on(
             f"curved surfaces of {count} bodies are checked as facets, up to about "
             f"{options['chord_tolerance']:g} mm off (--read chord-tolerance)",
         )
-
-
-def _counts(classes: Counter[str]) -> list[str]:
-    return [f"{count} {name}" for name, count in sorted(classes.items())]
-
-
-def _wholes(elements: Elements) -> list[str]:
-    counts = Counter(whole.is_a() for whole in elements.wholes)
-    return [f"{each} (its parts are)" for each in _counts(counts)]

@@ -56,7 +56,7 @@ def relations_of(
     rules += _wholes(bodies, paths)
     for pair in _pairs(model):
         for a, b in product(_bodies_of(pair.a, paths), _bodies_of(pair.b, paths)):
-            if a != b and not (pair.is_corner and _may_coincide(shapes[a], shapes[b])):
+            if a != b and not (pair.is_corner and not meet_in_a_corner(shapes[a], shapes[b])):
                 rules.append(RawRule(paths[a], paths[b], pair.reason, severity=pair.severity))
     return tuple(dict.fromkeys(rules)), groups
 
@@ -138,11 +138,6 @@ def _ports(model: Any) -> Iterator[_Pair]:
             yield _Pair(a, b, "connected by ports (IfcRelConnectsPorts)")
 
 
-def _may_coincide(a: Shape | Refusal, b: Shape | Refusal) -> bool:
-    """Whether two joined walls may share most of one of them."""
-    return isinstance(a, Shape) and isinstance(b, Shape) and not meet_in_a_corner(a, b)
-
-
 def _bodies_of(element: Any, paths: Mapping[int, str]) -> list[int]:
     """The numbers of the element and its parts, of those that are bodies."""
     ids, seen, waiting = [], set(), [element]
@@ -161,9 +156,11 @@ def _called(element: Any) -> str:
     return f"{element.is_a()} {element.GlobalId}"
 
 
-def meet_in_a_corner(a: Shape, b: Shape) -> bool:
+def meet_in_a_corner(a: Shape | Refusal, b: Shape | Refusal) -> bool:
     """Whether the boxes of two bodies, each along the axes of its element, share at most half of
     the smaller box. The bodies lie in their boxes, so they share no more."""
+    if isinstance(a, Refusal) or isinstance(b, Refusal):
+        return True
     turn = np.linalg.inv(_matrix(a)) @ _matrix(b)
     one, other = _box(a), _box(b).transform(turn[:3])
     return bool((one ^ other).volume() <= _MOST_SHARED * min(one.volume(), other.volume()))

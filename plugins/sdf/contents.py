@@ -68,8 +68,8 @@ class Contents:
             "frame": self._frame,
             "joint": self._joint,
             "actor": self._actor,
-            "population": self._population,
-            "road": self._road,
+            "population": self._unread,
+            "road": self._unread,
             "state": self._state,
         }
 
@@ -239,15 +239,11 @@ class Contents:
             cause = "an <actor> without <collision>: no body is checked"
             self.slips.note("no-collision-geometry", element, cause)
 
-    def _population(self, element: Element, around: Around) -> None:
-        name = element.attributes.get("name") or element.tag
-        why = "it places models by chance"
-        self._lose(element, around, name, "unsupported-feature", name, why)
-
-    def _road(self, element: Element, around: Around) -> None:
-        if self.slips.geometry == "visual":
-            name = element.attributes.get("name") or element.tag
-            self._lose(element, around, name, "unsupported-feature", name, "a road has no mesh")
+    def _unread(self, element: Element, around: Around) -> None:
+        name, is_road = element.attributes.get("name") or element.tag, element.tag == "road"
+        why = "a road has no mesh" if is_road else "it places models by chance"
+        if not is_road or self.slips.geometry == "visual":
+            self._lose(element, around, name, "unsupported-feature", name, why)
 
     def _state(self, element: Element, _: Around) -> None:
         self.slips.look(element, places.STATE)

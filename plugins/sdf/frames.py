@@ -89,9 +89,11 @@ class Frames:
         path = scope.path(text)
         if path not in self._frames:
             path = path.removesuffix(_SEPARATOR + _MODEL)
-        if text == _WORLD and (of_joint or not scope.prefix) and not self._has_body(path):
+        known = self._frames.get(path)
+        names_body = known is not None and known.element.tag != "joint"
+        if text == _WORLD and (of_joint or not scope.prefix) and not names_body:
             return WORLD
-        if path in self._frames:
+        if known is not None:
             return path
         if of_joint and (model := self._opaque_around(path)):
             return model
@@ -105,9 +107,6 @@ class Frames:
         except RefusedElement:
             return False
         return True
-
-    def _has_body(self, path: str) -> bool:
-        return path in self._frames and self._frames[path].element.tag != "joint"
 
     def _opaque_around(self, path: str) -> str | None:
         parts = path.split(_SEPARATOR)

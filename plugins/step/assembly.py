@@ -19,11 +19,11 @@ from satcheck.core.transform import Transform
 from satcheck.plugins.step.exchange import Exchange, read_exchange
 from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.gltf import placement_of
+from satcheck.scene.files.gltf import GltfScene
 from satcheck.scene.files.gltf_buffers import Accessors, Work, split_glb
 from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primitive
-from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Meshes, Shape
-from satcheck.scene.files.placing import Instance, instances, raw_scene, tidy_name
+from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Shape
+from satcheck.scene.files.placing import Instance, raw_scene, tidy_name
 from satcheck.scene.files.readers import File, imported
 from satcheck.scene.opening import NOTHING_ELSE, Context
 from satcheck.scene.words import listed
@@ -83,7 +83,9 @@ def _tessellated(data: bytes, options: Mapping[str, Any]) -> bytes:
     return glb
 
 
-class _Assembly:
+class _Assembly(GltfScene):
+    kind = "product"
+
     def __init__(
         self,
         document: GltfDocument,
@@ -92,23 +94,15 @@ class _Assembly:
         options: Mapping[str, Any],
     ) -> None:
         work = Work(isolated=True)
-        self._accessors = Accessors(document, chunk, Context("", NOTHING_ELSE), work)
-        self._meshes = Meshes(document, self._accessors, work)
-        self._document = document
-        self._nodes = document.nodes
+        context = Context("", NOTHING_ELSE)
+        super().__init__(document, Accessors(document, chunk, context, work), work)
         self._primitives = [mesh.primitives for mesh in document.meshes]
         self._exchange = exchange
         self._options = options
 
     def read(self) -> Document:
-        scenes = self._document.scenes
-        roots = scenes[0].nodes if scenes else ()
-        nodes = instances(
-            [(root, self._matrix(root)) for root in roots],
-            children=self._children,
-            has_mesh=lambda node: self._nodes[node].mesh != NONE or not self._children(node),
-            name=self._name,
-            kind="product",
+        nodes = self.placed(
+            lambda node: self.nodes[node].mesh != NONE or not self.nodes[node].children
         )
         curves = [node.path for node in nodes if self._is_curves(node.key)]
         placed = [
@@ -122,39 +116,36 @@ class _Assembly:
         lost = self._lost_faces(part.key for part in placed)
         return replace(scene, warnings=tuple(self._warnings(scene, curves, lost)))
 
-    def _children(self, node: int) -> list[tuple[int, Transform | None]]:
-        return [(child, self._matrix(child)) for child in self._nodes[node].children]
-
-    def _matrix(self, node: int) -> Transform | None:
+    def matrix(self, number: int) -> Transform | None:
         """The placement in millimetres. Coordinates in the document are of float32."""
-        matrix = placement_of(self._nodes[node], node)
+        matrix = super().matrix(number)
         if matrix is None:
             return None
         x, y, z = _millimetres(np.array(matrix[3:12:4])).tolist()
         return (*matrix[:3], x, *matrix[4:7], y, *matrix[8:11], z, *matrix[12:])
 
-    def _name(self, number: int) -> str:
+    def name(self, number: int) -> str:
         """The name of the occurrence, else of the product."""
-        node = self._nodes[number]
+        node = self.nodes[number]
         name = tidy_name(node.name, "")
         if name not in self._exchange.products and not _MADE_UP.fullmatch(name):
             return name
-        named = None if node.mesh == NONE else self._document.meshes.name(node.mesh)
+        named = None if node.mesh == NONE else self.document.meshes.name(node.mesh)
         return tidy_name(named or self._exchange.products.get(name), name or f"product{number}")
 
     def _is_curves(self, node: int) -> bool:
-        mesh = self._nodes[node].mesh
+        mesh = self.nodes[node].mesh
         if mesh == NONE:
             return False
         return all(primitive.mode in NO_TRIANGLES for primitive in self._primitives[mesh])
 
     def _part(self, node: int) -> _Part:
         """Occurrences of one product have meshes of their own, with the same primitives."""
-        mesh = self._nodes[node].mesh
+        mesh = self.nodes[node].mesh
         if mesh == NONE:
-            return _Part(self._name(node), None)
+            return _Part(self.name(node), None)
         return _Part(
-            tidy_name(self._document.meshes.name(mesh), f"mesh{mesh}"),
+            tidy_name(self.document.meshes.name(mesh), f"mesh{mesh}"),
             self._primitives.index(self._primitives[mesh]),
         )
 
@@ -162,7 +153,7 @@ class _Assembly:
         if part.mesh is None:
             return self._missing(part.name)
         try:
-            raw = self._meshes.read(Shape(part.mesh), None)
+            raw = self.meshes.read(Shape(part.mesh), None)
         except Refused as error:
             return Refusal(error.code, error.message)
         vertices = _millimetres(np.frombuffer(raw.vertices))
@@ -202,7 +193,7 @@ class _Assembly:
         planes = {
             face.face_index for face in faces.faces if face is not None and face.type == "plane"
         }
-        used, _ = self._accessors.indices(faces.face_indices)
+        used, _ = self.accessors.indices(faces.face_indices)
         return planes.issuperset(used)
 
     def _warnings(

@@ -11,6 +11,7 @@ import logging
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from logging.handlers import BufferingHandler
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from satcheck.scene.files.readers import File, imported
 from satcheck.scene.units import unit_of
 
 _MOST_VERTICES = 2**32  # they are numbered in 32 bits
+_MOST_WARNINGS = 1_000_000  # any is an error
 
 
 def read_tail(file: File) -> Document:
@@ -46,7 +48,7 @@ def read_tail(file: File) -> Document:
         reason = f"{type(error).__name__}: {error}"
         raise Refused("bad-record", f"trimesh cannot read it: {reason}") from None
     if said:
-        raise Refused("bad-record", f"trimesh reads a part of it: {said[0]}")
+        raise Refused("bad-record", f"trimesh reads a part of it: {said[0].getMessage()}")
     nodes = sorted(scene.graph.nodes_geometry)
     units = unit_of(scene.units) if scene.units else None
     read = raw_scene(
@@ -81,21 +83,13 @@ def _mesh(geometry: Any, units: str | None) -> RawMesh | Refusal:
     return RawMesh(points.tobytes(), faces.astype("<u4").tobytes(), "float32", units=units)
 
 
-class _Said(logging.Handler):
-    def __init__(self) -> None:
-        super().__init__(logging.WARNING)
-        self.lines: list[str] = []
-
-    def emit(self, record: logging.LogRecord) -> None:
-        self.lines.append(record.getMessage())
-
-
 @contextmanager
-def _warnings() -> Iterator[list[str]]:
+def _warnings() -> Iterator[list[logging.LogRecord]]:
     """What trimesh warns of meanwhile."""
-    handler, log = _Said(), logging.getLogger("trimesh")
+    handler, log = BufferingHandler(_MOST_WARNINGS), logging.getLogger("trimesh")
+    handler.setLevel(logging.WARNING)
     log.addHandler(handler)
     try:
-        yield handler.lines
+        yield handler.buffer
     finally:
         log.removeHandler(handler)

@@ -119,7 +119,8 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
         return Refusal("unsupported-feature", f"geometry of the type {kind} is not read")
     has_points = any(map(prim.HasProperty, _OF_GEOMETRY))
     is_unknown = kind and not type_of(prim) and (has_points or not TYPES.knows(kind))
-    if is_unknown and (choice.collides(prim) or _is_drawn(prim, choice)):
+    is_drawn = not choice.colliders and any(map(prim.HasProperty, _OF_SPACE))
+    if is_unknown and (choice.collides(prim) or is_drawn):
         message = f"prims of the type {kind} are not known: convert it to a Mesh"
         return Refusal("unsupported-feature", message)
     if choice.collides(prim) and _has_drawn_below(prim):
@@ -140,10 +141,6 @@ def _is_made_elsewhere(prim: Any) -> bool:
     if not prim.IsA(UsdGeom.Boundable) or prim.HasAPI(UsdLux.LightAPI):
         return False
     return not any(map(prim.IsA, (UsdGeom.Gprim, UsdGeom.PointInstancer, *_OF_SKELETONS)))
-
-
-def _is_drawn(prim: Any, choice: Choice) -> bool:
-    return not choice.colliders and any(prim.HasProperty(name) for name in _OF_SPACE)
 
 
 def _has_drawn_below(prim: Any) -> bool:

@@ -61,13 +61,10 @@ def _why_not(prim: Any, api: Any, name: str, clips: Any) -> str | None:
     if places and not there:
         return f"no prim is at {places[0]}"
     for attribute in filter(None, map(stage.GetAttributeAtPath, there)):
-        if not _is_used(attribute, layer) and has_geometry_below(attribute.GetPrim()):
+        used = any(spec.layer == layer for spec in attribute.GetPropertyStack(_FIRST))
+        if not used and has_geometry_below(attribute.GetPrim()):
             return f"{attribute.GetPath()} does not come from {path.path}"
     return None
-
-
-def _is_used(attribute: Any, layer: Any) -> bool:
-    return any(spec.layer == layer for spec in attribute.GetPropertyStack(_FIRST))
 
 
 def _first(active: Any, paths: Any) -> Any:

@@ -37,7 +37,9 @@ class Closed:
                     continue
                 seen.add(place)
                 if not self.permits(place):
-                    self._stand_in(place)
+                    if Path(file_of(place)).exists():
+                        text = Sdf.FileFormat.FindById("usda")
+                        self._stand_ins[place] = Sdf.Layer.New(text, place)
                     continue
                 self._refuse_large(place)
                 if (inner := opened(place)) is not None:
@@ -60,11 +62,6 @@ class Closed:
                 self._context.permitted.most.refuse_beyond(size_of(file))
             except Refused as error:
                 raise Refused(error.code, f"layer {place!r}: {error.message}") from None
-
-    def _stand_in(self, place: str) -> None:
-        if Path(file_of(place)).exists():
-            text = Sdf.FileFormat.FindById("usda")
-            self._stand_ins[place] = Sdf.Layer.New(text, place)
 
 
 def file_of(place: str) -> str:

@@ -26,11 +26,11 @@ def read_usd(file: File) -> Document:
     """Return the bodies of a stage. Raises Refused."""
     os.environ.setdefault("PXR_WORK_THREAD_LIMIT", "1")  # each thread reserves address space
     tf = imported("pxr.Tf", "usd", "USD files")
-    from satcheck.plugins.usd.reading import read_scene  # imports usd-core
+    from satcheck.plugins.usd.reading import Reading  # imports usd-core
     from satcheck.plugins.usd.stage import open_stage, said
 
     try:
-        return read_scene(open_stage(file), file.options)
+        return Reading(open_stage(file), file.options).scene()
     except tf.ErrorException as error:
         raise Refused("bad-record", f"not a valid USD file: {said(error)}") from None
 

@@ -31,12 +31,7 @@ _NOT_TURNED = Gf.Matrix4d(1.0)
 Content = RawMesh | Primitive | Refusal
 
 
-def read_scene(stage: Stage, options: Mapping[str, Any]) -> Document:
-    """Raises Refused if the stage has no body."""
-    return _Reading(stage, options).scene()
-
-
-class _Reading:
+class Reading:
     def __init__(self, stage: Stage, options: Mapping[str, Any]) -> None:
         self._stage = stage
         self._choice = Choice(options)
@@ -47,9 +42,10 @@ class _Reading:
         self._nodes: list[Item] = []
         self._placed: list[PlacedPrim] = []
         self._read: dict[Any, tuple[int, Any]] = {}
-        self._places: dict[object, int] = {}
+        self._places: dict[Content, int] = {}
 
     def scene(self) -> Document:
+        """Raises Refused if the stage has no body."""
         self._refuse_lost_in_instances()
         look_at_stage(self._stage.stage, self._choice, self._said)
         look_at_layers(self._stage.stage, self._said)
@@ -197,14 +193,10 @@ class _Reading:
 
     def _part(self, name: str, content: Content) -> int:
         """Its number. Equal meshes and shapes are one part."""
-        if isinstance(content, RawMesh):
-            key: object = (bytes(content.vertices), bytes(content.triangles), content.warnings)
-        else:
-            key = content
-        if key not in self._places:
-            self._places[key] = len(self._parts)
+        number = self._places.setdefault(content, len(self._parts))
+        if number == len(self._parts):
             self._parts.append(RawPart(name, content))
-        return self._places[key]
+        return number
 
     def _add(self, placed: PlacedPrim, reason: Refusal) -> None:
         self._parts.append(RawPart(placed.name, reason))

@@ -61,7 +61,7 @@ def read_gltf(file: File) -> Document:
     document = read_document(text, unknown)
     work = Work(isolated=file.isolated)
     accessors = Accessors(document, chunk, file.context, work)
-    reader = _Scene(document, accessors, work)
+    reader = GltfScene(document, accessors, work)
     colliders = Colliders(document, unknown)
     warnings: list[tuple[str, str]] = []
     if geometry == "collision":
@@ -89,22 +89,25 @@ def _without_surface(mesh: RawMesh | Refusal) -> bool:
     return isinstance(mesh, Refusal) and mesh.code == NO_SURFACE
 
 
-class _Scene:
-    """The default scene of a document. Its methods raise Refused."""
+class GltfScene:
+    """The default scene of a document. Its methods raise Refused. kind: the noun for a node in
+    messages."""
+
+    kind = "node"
 
     def __init__(self, document: GltfDocument, accessors: Accessors, work: Work) -> None:
         self._work = work
-        self._document = document
-        self._accessors = accessors
-        self._nodes = document.nodes
-        self._meshes = Meshes(document, accessors, work)
+        self.document = document
+        self.accessors = accessors
+        self.nodes = document.nodes
+        self.meshes = Meshes(document, accessors, work)
         self._copied = 0
         self._matrices: dict[int, Transform | None] = {}
 
     def read(self) -> Document:
         names = UniqueNames()
         placed = [
-            Instance(Shape.of(self._nodes[node.key]), matrix, names.unique(path))
+            Instance(Shape.of(self.nodes[node.key]), matrix, names.unique(path))
             for node in self._drawn
             for path, matrix in self._copies(node)
         ]
@@ -123,7 +126,7 @@ class _Scene:
 
     def colliders(self, colliders: Colliders) -> Document:
         """The colliders of the nodes. Those of one rigid body may touch each other."""
-        placed = self._placed(colliders.has)
+        placed = self.placed(colliders.has)
         if not placed:
             raise Refused("empty-mesh", "no node of the scene has a collider")
         parts, nodes = [], []
@@ -144,14 +147,14 @@ class _Scene:
         """Name the nodes with a mesh that the scene lacks, and count meshes without a node."""
         drawn = {node.key for node in self._drawn}
         used, lost = set(), []
-        for number, node in enumerate(self._nodes):
+        for number, node in enumerate(self.nodes):
             used.add(node.mesh)
             if node.mesh != NONE and number not in drawn:
                 lost.append(f"node {number}")
             if node.mesh == NONE and INSTANCING in node.extensions:
                 message = f"node {number}: {INSTANCING} is not read on a node without a mesh"
                 unknown.note((INSTANCING, "mesh"), message)
-        meshes = range(len(self._document.meshes))
+        meshes = range(len(self.document.meshes))
         unused = [f"mesh {number}" for number in meshes if number not in used]
         said = [f"{listed(lost)} outside of the scene"] if lost else []
         said += [f"{listed(unused)} without a node"] if unused else []
@@ -160,46 +163,46 @@ class _Scene:
     @cached_property
     def _drawn(self) -> list[Instance[int]]:
         """The nodes of the scene with a mesh."""
-        return self._placed(lambda number: self._nodes[number].mesh != NONE)
+        return self.placed(lambda number: self.nodes[number].mesh != NONE)
 
-    def _placed(self, chosen: Callable[[int], bool]) -> list[Instance[int]]:
+    def placed(self, chosen: Callable[[int], bool]) -> list[Instance[int]]:
         """The chosen nodes of the scene, by their numbers, with world matrix and path."""
         return instances(
-            [(root, self._matrix(root)) for root in self._roots()],
+            [(root, self.matrix(root)) for root in self._roots()],
             children=lambda number: [
-                (child, self._matrix(child)) for child in self._nodes[number].children
+                (child, self.matrix(child)) for child in self.nodes[number].children
             ],
             has_mesh=chosen,
-            name=self._name,
-            kind="node",
+            name=self.name,
+            kind=self.kind,
         )
 
-    def _matrix(self, number: int) -> Transform | None:
+    def matrix(self, number: int) -> Transform | None:
         """The placement of a node in its parent."""
         if number not in self._matrices:
-            self._matrices[number] = placement_of(self._nodes[number], number)
+            self._matrices[number] = placement_of(self.nodes[number], number)
         return self._matrices[number]
 
     def _roots(self) -> list[int]:
         """Of the default scene; without scenes, the nodes that are no children."""
-        document = self._document
+        document = self.document
         if document.scenes:
             return list(document.scenes[max(document.stated.scene, 0)].nodes)
-        roots = [number for number in range(len(self._nodes)) if number not in self._parents]
-        if self._nodes and not roots:
+        roots = [number for number in range(len(self.nodes)) if number not in self._parents]
+        if self.nodes and not roots:
             raise Refused("reference-cycle", "every node is a child of another: a cycle")
         return roots
 
-    def _name(self, number: int) -> str:
+    def name(self, number: int) -> str:
         """The name of a node, else of its mesh, else its number."""
-        node = self._nodes[number]
+        node = self.nodes[number]
         name = tidy_name(node.name, "")
         if not name and node.mesh != NONE:
-            name = tidy_name(self._document.meshes.name(node.mesh), "")
+            name = tidy_name(self.document.meshes.name(node.mesh), "")
         return name or f"node{number}"
 
     def _mesh_name(self, number: int) -> str:
-        return tidy_name(self._document.meshes.name(number), f"mesh{number}")
+        return tidy_name(self.document.meshes.name(number), f"mesh{number}")
 
     def _content(
         self, collider: Collider, matrix: Transform | None
@@ -229,13 +232,13 @@ class _Scene:
         """Returns a Refusal for a mesh that cannot be used, so that its nodes stay in the scene."""
         try:
             skin = None if shape.skin == NONE else self._skin(shape.skin)
-            return self._meshes.read(shape, skin)
+            return self.meshes.read(shape, skin)
         except Refused as error:
             return Refusal(error.code, error.message)
 
     def _copies(self, node: Instance[int]) -> Iterator[tuple[str, Transform | None]]:
         """(path, matrix) of a node, or of each GPU instance of the node."""
-        where, stated = f"node {node.key}", self._nodes[node.key]
+        where, stated = f"node {node.key}", self.nodes[node.key]
         if stated.skin != NONE:  # its joints place it
             yield node.path, None
             return
@@ -243,7 +246,7 @@ class _Scene:
         if instancing is None:
             yield node.path, node.matrix
             return
-        columns = self._accessors.columns(instancing.attributes)
+        columns = self.accessors.columns(instancing.attributes)
         kinds = {"TRANSLATION": 3, "ROTATION": 4, "SCALE": 3}
         given = [(columns(name, f"VEC{width}"), width) for name, width in kinds.items()]
         counts = {len(rows) // width for rows, width in given if rows is not None}
@@ -259,25 +262,25 @@ class _Scene:
             yield f"{node.path}[{i}]", multiply(node.matrix, _trs_placement(*parts))
 
     def _skin(self, number: int) -> Skin:
-        skin = self._document.skins[number]
+        skin = self.document.skins[number]
         bound = None
         if skin.inverse_bind_matrices != NONE:
-            bound = self._accessors.numbers(skin.inverse_bind_matrices, "MAT4")
+            bound = self.accessors.numbers(skin.inverse_bind_matrices, "MAT4")
             if len(bound) < 16 * len(skin.joints):
                 raise Refused("count-mismatch", f"skin {number}: a joint lacks its matrix")
         return Skin(tuple(self._world(joint) or IDENTITY for joint in skin.joints), bound)
 
     def _world(self, node: int) -> Transform | None:
         """The world matrix of a node; None: the identity."""
-        matrix = self._matrix(node)
+        matrix = self.matrix(node)
         for parent in self._above(node):
             self._work.spend(8 * len(IDENTITY))
-            matrix = multiply(self._matrix(parent), matrix)
+            matrix = multiply(self.matrix(parent), matrix)
         return matrix
 
     @cached_property
     def _parents(self) -> dict[int, int]:
-        return {child: parent for parent, node in enumerate(self._nodes) for child in node.children}
+        return {child: parent for parent, node in enumerate(self.nodes) for child in node.children}
 
     def _above(self, node: int) -> Iterator[int]:
         """The nodes around a node, from the inside."""
