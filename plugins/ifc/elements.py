@@ -56,7 +56,8 @@ def elements_of(model: Any) -> Elements:
     bodies, without, wholes = [], [], []
     unread: dict[int, Refusal] = {}
     left_out: Counter[str] = Counter()
-    for product in sorted(model.by_type("IfcProduct"), key=_order):
+    products = model.by_type("IfcProduct")
+    for product in sorted(products, key=lambda each: (each.GlobalId or "", each.id())):
         if not _is_body(product):
             if product.Representation is not None or product.is_a("IfcFeatureElement"):
                 left_out[product.is_a()] += 1
@@ -138,10 +139,6 @@ def _is_body(product: Any) -> bool:
     return product.is_a(_ADDITION) or not any(map(product.is_a, _NO_BODIES))
 
 
-def _order(product: Any) -> tuple[str, int]:
-    return product.GlobalId or "", product.id()
-
-
 def groups_of(model: Any, bodies: Sequence[Any]) -> dict[int, tuple[str, ...]]:
     """The number of each instance -> its groups."""
     classes: dict[str, tuple[str, ...]] = {}
@@ -169,12 +166,9 @@ def _memberships(body: Any) -> tuple[str, ...]:
         ("type", get_type(body)),
         *(("system", system) for system in get_element_systems(body)),
     )
-    groups = (f"{kind}:{_name(thing)}" for kind, thing in named if thing is not None)
+    there = ((kind, each) for kind, each in named if each is not None)
+    groups = (f"{kind}:{tidy_name(each.Name, each.GlobalId)}" for kind, each in there)
     return tuple(dict.fromkeys(groups))
-
-
-def _name(thing: Any) -> str:
-    return tidy_name(thing.Name, thing.GlobalId)
 
 
 def curved_bodies(model: Any, bodies: Sequence[Any]) -> set[int]:

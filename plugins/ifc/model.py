@@ -65,7 +65,8 @@ def open_model(data: memoryview, most: Most) -> Any:
     try:
         model = ifcopenshell.file.from_string(_text(content))
     except RuntimeError as error:
-        raise _unopened(list(logged()), str(error)) from None
+        said = next((message.line for message in logged()), str(error))
+        raise Refused("bad-record", f"the file cannot be parsed: {said}") from None
     _refuse_damage(model, logged())
     refuse_other_kinds(model)
     _refuse_without_unit(model)
@@ -106,11 +107,6 @@ def _text(content: bytes) -> str:
         return content.decode()
     except UnicodeDecodeError:
         return content.decode("latin-1")
-
-
-def _unopened(messages: list[Message], otherwise: str) -> Refused:
-    said = messages[0].line if messages else otherwise
-    return Refused("bad-record", f"the file cannot be parsed: {said}")
 
 
 def _refuse_damage(model: Any, messages: Iterable[Message]) -> None:

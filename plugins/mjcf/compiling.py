@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,8 +18,9 @@ import numpy as np
 
 from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.plugins.mjcf.files import ModelFiles
-from satcheck.scene.document import COMPONENT_MARK, Document, Item, RawMesh, RawPart, Refusal
+from satcheck.scene.document import COMPONENT_MARK, Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.placing import Instance, raw_scene
 from satcheck.scene.files.readers import File
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import MeshReference
@@ -232,20 +234,18 @@ def own_meshes_of(read: Compiled) -> Document:
     """Return the meshes that only MuJoCo reads, in the coordinates of the compiled model. Raises
     Refused."""
     m = read.model
-    parts: list[RawPart] = []
-    nodes: list[Item] = []
-    for k in range(m.nmesh):
-        name = m.mesh(k).name
-        if name in read.refused or name in read.file_meshes:
-            continue
+
+    def mesh(k: int) -> RawMesh:
         vertices = m.mesh_vert[m.mesh_vertadr[k] :][: m.mesh_vertnum[k]].astype("<f8")
         faces = m.mesh_face[m.mesh_faceadr[k] :][: m.mesh_facenum[k]].astype("<u4")
-        mesh = RawMesh(vertices.tobytes(), faces.tobytes(), "float32", units="m")
-        nodes.append(Item(len(parts), part_name(m, k)))
-        parts.append(RawPart(part_name(m, k), mesh))
-    if not parts:
+        return RawMesh(vertices.tobytes(), faces.tobytes(), "float32", units="m")
+
+    others = {*read.refused, *read.file_meshes}
+    own = [k for k in range(m.nmesh) if m.mesh(k).name not in others]
+    if not own:
         raise Refused("unknown-part", "it has no mesh of its own")
-    return Document(tuple(parts), tuple(nodes))
+    name = partial(part_name, m)
+    return raw_scene([Instance(k, None, name(k)) for k in own], name, mesh)
 
 
 def part_name(model: Any, mesh: int) -> str:

@@ -24,9 +24,9 @@ def read_mjcf(file: File) -> RobotDocument:
         message = f"MuJoCo reads files that end in {ENDING}: rename it"
         raise Refused("unsupported-format", message)
     read = _compiled(file)
-    from satcheck.plugins.mjcf.reading import robot_of
+    from satcheck.plugins.mjcf.reading import Reading
 
-    return robot_of(read, file.path, file.options)
+    return Reading(read, file.path, file.options).document()
 
 
 def own_meshes(file: File) -> Document:

@@ -23,7 +23,7 @@ from satcheck.plugins.mjcf.exemptions import Exemptions, mask_of
 from satcheck.plugins.mjcf.joints import joints_of, rest_poses, values_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import Refusal, UniqueNames
-from satcheck.scene.issue import Issue, issue
+from satcheck.scene.issue import issue
 from satcheck.scene.robot.kinematics import inverse
 from satcheck.scene.robot.model import (
     Collision,
@@ -39,17 +39,10 @@ _GEOM = mujoco.mjtGeom
 _FLEX = Refusal("unsupported-feature", "a deformable body (flex) is not read")
 
 
-def robot_of(read: Compiled, path: str, options: Mapping[str, Any]) -> RobotDocument:
-    """The robot, and issues. Raises Refused if a number is not finite.
+class Reading:
+    """path: of the file. options: geometry: "collision": geoms whose contype or conaffinity is not
+    0, or that a <pair> names; "visual": the others. Raises Refused if a number is not finite."""
 
-    path: of the file. options: geometry: "collision": geoms whose contype or conaffinity is not 0,
-    or that a <pair> names; "visual": the others.
-    """
-    reader = _Reader(read, path, options)
-    return RobotDocument(robot=reader.robot(), issues=tuple(reader.issues()))
-
-
-class _Reader:
     def __init__(self, read: Compiled, path: str, options: Mapping[str, Any]) -> None:
         m = self._model = read.model
         self._read = read
@@ -78,7 +71,11 @@ class _Reader:
         given = [mujoco.mj_id2name(self._model, of_kind, k) for k in range(count)]
         return [names.unique(name or f"{kind}{k}") for k, name in enumerate(given)]
 
-    def robot(self) -> Robot:
+    def document(self) -> RobotDocument:
+        issues = (issue(code, message, file=self._path) for code, message in self._notes())
+        return RobotDocument(robot=self._robot(), issues=tuple(issues))
+
+    def _robot(self) -> Robot:
         m = self._model
         places = [pose_of(m.body_pos[k], m.body_quat[k]) for k in range(m.nbody)]
         joints, between = joints_of(m, self._bodies, self._joints, places)
@@ -160,10 +157,6 @@ class _Reader:
             return read.refused[name]
         own = Path(self._path).name
         return MeshReference(own, (1.0, 1.0, 1.0), part=part_name(m, mesh), hull=self._hulls)
-
-    def issues(self) -> Iterator[Issue]:
-        for code, message in self._notes():
-            yield issue(code, message, file=self._path)
 
     def _notes(self) -> Iterator[tuple[str, str]]:
         shapes = map(self._shape, self._checked)

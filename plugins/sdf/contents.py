@@ -7,11 +7,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from satcheck.plugins.sdf import places
+from satcheck.plugins.sdf.elements import boolean, flag, frame_named, pose_of, text_of
 from satcheck.plugins.sdf.frames import WORLD, Frame, Frames, Name, Scope
 from satcheck.plugins.sdf.includes import Includes, name_in, version_of
 from satcheck.plugins.sdf.joints import JointEntry
-from satcheck.plugins.sdf.parts import frame_named
-from satcheck.plugins.sdf.values import boolean, flag, pose_of, text_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused

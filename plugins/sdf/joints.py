@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from satcheck.core.conventions import Vector
+from satcheck.plugins.sdf.elements import boolean, number, numbers
 from satcheck.plugins.sdf.frames import WORLD, Frames, Name, Scope
-from satcheck.plugins.sdf.values import boolean, number, numbers
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.elements import unit_axis
 from satcheck.scene.robot.kinematics import inverse

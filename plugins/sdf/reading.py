@@ -14,10 +14,10 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from satcheck.plugins.sdf.contents import Contents, LinkEntry
+from satcheck.plugins.sdf.elements import ANY, Part, parts_in
 from satcheck.plugins.sdf.frames import WORLD
 from satcheck.plugins.sdf.includes import Includes
 from satcheck.plugins.sdf.joints import JointEntry, joint_of
-from satcheck.plugins.sdf.parts import ANY, Part, parts_in
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.files.readers import File
 from satcheck.scene.files.xml_tree import Element

@@ -112,7 +112,7 @@ class _Assembly(GltfScene):
         ]
         if all(part.key.mesh is None for part in placed):
             self._refuse_empty([part.key.name for part in placed], curves)
-        scene = raw_scene(placed, lambda part: part.name, self._mesh)
+        scene = raw_scene(placed, lambda part: part.name, self._mesh_of)
         lost = self._lost_faces(part.key for part in placed)
         return replace(scene, warnings=tuple(self._warnings(scene, curves, lost)))
 
@@ -149,13 +149,12 @@ class _Assembly(GltfScene):
             self._primitives.index(self._primitives[mesh]),
         )
 
-    def _mesh(self, part: _Part) -> RawMesh | Refusal:
+    def _mesh_of(self, part: _Part) -> RawMesh | Refusal:
         if part.mesh is None:
             return self._missing(part.name)
-        try:
-            raw = self.meshes.read(Shape(part.mesh), None)
-        except Refused as error:
-            return Refusal(error.code, error.message)
+        raw = self.mesh(Shape(part.mesh))
+        if isinstance(raw, Refusal):
+            return raw
         vertices = _millimetres(np.frombuffer(raw.vertices))
         flat = not self._exchange.is_curved or all(map(self._is_flat, self._primitives[part.mesh]))
         return replace(
@@ -217,14 +216,8 @@ class _Assembly(GltfScene):
             yield "faceted", message
 
     def _lost_faces(self, parts: Iterable[_Part]) -> str | None:
-        """Words about faces that the file has and the bodies lack."""
-        read, faces = self._faces(parts), self._exchange.faces
-        if read is None or read >= faces:
-            return None
-        return f"OpenCascade reads {read} of the {faces} faces of the file; bodies may be missing"
-
-    def _faces(self, parts: Iterable[_Part]) -> int | None:
-        """How many faces the products have; None: cascadio says it only of a part of them."""
+        """Words about faces that the file has and the bodies lack; None: there are none, or
+        cascadio states the faces only of a part of them."""
         used = {part.mesh for part in parts if part.mesh is not None}
         faces = [
             each.extension(_FACES, _Faces, "a primitive")
@@ -232,7 +225,10 @@ class _Assembly(GltfScene):
             for each in self._primitives[mesh]
         ]
         known = [each.faces for each in faces if each is not None]
-        return sum(map(len, known)) if len(known) == len(faces) else None
+        read, wanted = sum(map(len, known)), self._exchange.faces
+        if len(known) < len(faces) or read >= wanted:
+            return None
+        return f"OpenCascade reads {read} of the {wanted} faces of the file; bodies may be missing"
 
 
 def _millimetres(metres: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

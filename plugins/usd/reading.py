@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
+from pxr import Gf, Tf, UsdGeom, UsdPhysics
 
-from satcheck.core import Mesh
 from satcheck.core.shapes import HalfSpace, Primitive
 from satcheck.core.transform import Transform
 from satcheck.plugins.usd.choice import Choice, hidden_geometry, not_read, without_extent
-from satcheck.plugins.usd.joints import Joints
 from satcheck.plugins.usd.layers import look_at_layers
 from satcheck.plugins.usd.mesh import Skinning, read_mesh, read_tetrahedra
 from satcheck.plugins.usd.names import TYPES
@@ -23,6 +21,7 @@ from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import Document, Item, RawMesh, RawPart, Refusal
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.nodes import hull_of
 from satcheck.scene.issue import CODES
 
 # Approximations that reach out of the mesh.
@@ -54,11 +53,7 @@ class Reading:
             self._take(placed)
         for name, reason in self._lost.items():
             self._add(PlacedPrim(name, None, WORLD), reason)
-        warnings = (
-            *self._stage.warnings,
-            *self._of_time(),
-            *self._said.warnings(),
-        )
+        warnings = (*self._stage.warnings, *self._said.warnings())
         if not self._nodes:
             reasons = "; ".join(message for _, message in warnings)
             is_explained = all(CODES[code].severity == "note" for code, _ in warnings)
@@ -66,8 +61,7 @@ class Reading:
             raise Refused(code, f"the stage has no body. {reasons}".strip())
         said = Remarks()
         stage, time = self._stage, self._choice.time
-        nodes, rules, prims = with_physics(stage.stage, self._nodes, self._placed, time, said)
-        joints = Joints(stage, time, said).of(prims)
+        nodes, rules, joints = with_physics(stage, self._nodes, self._placed, time, said)
         said_of = (*warnings, *said.warnings())
         return Document(tuple(self._parts), nodes, said_of, stage.unit, rules, joints)
 
@@ -82,15 +76,6 @@ class Reading:
         name, reason = next(iter(self._lost.items()))
         message = f"{name}: {reason.message} (the stage has instances, which may lack it, too)"
         raise Refused(reason.code, message)
-
-    def _of_time(self) -> list[tuple[str, str]]:
-        if self._stage.sampled is None or self._choice.time != Usd.TimeCode.EarliestTime():
-            return []
-        first, last = self._stage.sampled
-        message = (
-            f"bodies stand as at the first of the time codes {first:g} to {last:g} (--read time=T)"
-        )
-        return [("time-sampled", message)]
 
     def _take(self, placed: PlacedPrim) -> None:
         """Adds the body of a prim, if it is one."""
@@ -180,12 +165,7 @@ class Reading:
         if kind in (None, UsdPhysics.Tokens.none):
             return mesh
         if kind == UsdPhysics.Tokens.convexHull:
-            try:
-                hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
-            except ValueError as error:
-                raise Refused("bad-record", f"it has no convex hull: {error}") from None
-            vertices, triangles = hull.to_bytes()
-            return RawMesh(vertices, triangles, mesh.number_format, units=mesh.units)
+            return hull_of(mesh)
         words = f"a simulator takes its {kind}, its mesh is checked"
         code = "unread" if kind in _LARGER else "simplified-mesh"
         self._said.add(code, words, str(prim.GetPath()))

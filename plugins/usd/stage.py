@@ -33,8 +33,7 @@ class Stage(Struct, frozen=True):
     """An open stage.
 
     unit: of lengths after the factor `scale`. y_up: its y axis points up. lost: prim -> why what it
-    refers to is missing. warnings: (code, message). sampled: it has time samples, from the first to
-    the last time code.
+    refers to is missing. warnings: (code, message).
     """
 
     stage: Any
@@ -43,7 +42,6 @@ class Stage(Struct, frozen=True):
     y_up: bool
     lost: dict[str, Refusal]
     warnings: tuple[tuple[str, str], ...]
-    sampled: tuple[float, float] | None
 
     def matrix(self, matrix: Any) -> Transform:
         """For column vectors, in the unit of the scene, with z up."""
@@ -89,8 +87,11 @@ def open_stage(file: File) -> Stage:
     axis = UsdGeom.GetStageUpAxis(stage)
     if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
         raise Refused("bad-record", f"upAxis is {axis!r}, not Y or Z")
-    y_up = axis == UsdGeom.Tokens.y
-    return Stage(stage, unit, scale, y_up, lost, tuple(warnings), _sampled(layers))
+    times = [time for layer in layers for time in layer.ListAllTimeSamples()]
+    if times and file.options["time"] is None:
+        between = f"the first of the time codes {min(times):g} to {max(times):g}"
+        warnings.append(("time-sampled", f"bodies stand as at {between} (--read time=T)"))
+    return Stage(stage, unit, scale, axis == UsdGeom.Tokens.y, lost, tuple(warnings))
 
 
 def said(error: Exception) -> str:
@@ -176,8 +177,3 @@ def _unit(stage: Any, warnings: list[tuple[str, str]]) -> tuple[str, float]:
         warnings.append(("assumed-units", message))
     unit = unit_of(f"{metres:.{_DIGITS}g} * meters")
     return (_METRE, metres) if unit is None else (unit, 1.0)
-
-
-def _sampled(layers: list[Any]) -> tuple[float, float] | None:
-    times = [time for layer in layers for time in layer.ListAllTimeSamples()]
-    return (min(times), max(times)) if times else None

@@ -140,7 +140,10 @@ class Walk:
             wrong = used[0] if used[0] < 0 else used[-1]
             message = f"it places prototype {wrong} of {len(paths)}"
             raise Refused("index-out-of-range", message)
-        roots = {number: self._prototype(paths[number]) for number in used}
+        roots = {number: self._stage.GetPrimAtPath(paths[number]) for number in used}
+        for number, root in roots.items():
+            if not root or root.IsAbstract():
+                raise Refused("missing-resource", f"there is no prototype {paths[number]}")
         samples = instancer.GetPositionsAttr().GetTimeSamples()
         if samples and time == Usd.TimeCode.EarliestTime():
             time = Usd.TimeCode(samples[0])  # velocities count from there
@@ -164,12 +167,6 @@ class Walk:
             for index, number in enumerate(numbers)
             if mask[index]
         ]
-
-    def _prototype(self, path: Any) -> Any:
-        prim = self._stage.GetPrimAtPath(path)
-        if not prim or prim.IsAbstract():
-            raise Refused("missing-resource", f"there is no prototype {path}")
-        return prim
 
 
 _WITH_INSTANCES = Usd.TraverseInstanceProxies()

@@ -13,7 +13,6 @@ from functools import cached_property
 
 from msgspec.structs import replace
 
-from satcheck.core import Mesh
 from satcheck.core.shapes import Box, Primitive
 from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.scene.bodies import IDENTITY
@@ -37,10 +36,10 @@ from satcheck.scene.files.gltf_document import (
     NONE,
     GltfDocument,
     Instancing,
-    Node,
     read_document,
 )
 from satcheck.scene.files.gltf_meshes import Meshes, Shape, Skin
+from satcheck.scene.files.nodes import hull_of
 from satcheck.scene.files.placing import Instance, instances, multiply, raw_scene, tidy_name
 from satcheck.scene.files.readers import File
 from satcheck.scene.vocabulary import UnknownNames
@@ -111,7 +110,7 @@ class GltfScene:
             for node in self._drawn
             for path, matrix in self._copies(node)
         ]
-        meshes = {shape: self._mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
+        meshes = {shape: self.mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
         bare = {shape for shape, mesh in meshes.items() if _without_surface(mesh)}
         scene = raw_scene(
             [one for one in placed if one.key not in bare],
@@ -180,7 +179,15 @@ class GltfScene:
     def matrix(self, number: int) -> Transform | None:
         """The placement of a node in its parent."""
         if number not in self._matrices:
-            self._matrices[number] = placement_of(self.nodes[number], number)
+            node = self.nodes[number]
+            columns = node.matrix
+            if columns and columns[3::4] != (0.0, 0.0, 0.0, 1.0):
+                raise Refused("bad-record", f"node {number}: the matrix is not affine")
+            self._matrices[number] = (
+                tuple(columns[4 * column + row] for row in range(4) for column in range(4))
+                if columns
+                else _trs_placement(node.translation, node.rotation, node.scale)
+            )
         return self._matrices[number]
 
     def _roots(self) -> list[int]:
@@ -213,11 +220,9 @@ class GltfScene:
             if isinstance(shape, Refusal):
                 return shape, matrix
             if isinstance(shape, Shape):
-                mesh = self._mesh(shape)
+                mesh = self.mesh(shape)
                 if collider.hull and isinstance(mesh, RawMesh):
-                    hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
-                    vertices, triangles = hull.to_bytes()
-                    mesh = replace(mesh, vertices=vertices, triangles=triangles)
+                    mesh = hull_of(mesh)
                 return mesh, matrix if shape.skin == NONE else None
             if not isinstance(shape, Box):
                 matrix = multiply(matrix, UPRIGHT)
@@ -225,10 +230,8 @@ class GltfScene:
             return shape, matrix
         except Refused as error:
             return Refusal(error.code, error.message), matrix
-        except (OverflowError, ValueError) as error:
-            return Refusal("bad-record", f"convex hull: {error}"), matrix
 
-    def _mesh(self, shape: Shape) -> RawMesh | Refusal:
+    def mesh(self, shape: Shape) -> RawMesh | Refusal:
         """Returns a Refusal for a mesh that cannot be used, so that its nodes stay in the scene."""
         try:
             skin = None if shape.skin == NONE else self._skin(shape.skin)
@@ -291,16 +294,6 @@ class GltfScene:
             seen.add(parent)
             yield parent
             node = parent
-
-
-def placement_of(node: Node, number: int) -> Transform | None:
-    """The placement of a node in its parent; None: the identity."""
-    columns = node.matrix
-    if not columns:
-        return _trs_placement(node.translation, node.rotation, node.scale)
-    if columns[3::4] != (0.0, 0.0, 0.0, 1.0):
-        raise Refused("bad-record", f"node {number}: the matrix is not affine")
-    return tuple(columns[4 * column + row] for row in range(4) for column in range(4))
 
 
 def _trs_placement(

@@ -203,6 +203,16 @@ def flattened(document: Document) -> RawMesh:
     )
 
 
+def hull_of(mesh: RawMesh) -> RawMesh:
+    """Return the convex hull of a mesh. Raises Refused."""
+    try:
+        hull = Mesh.from_bytes(mesh.vertices, mesh.triangles).convex_hull().to_mesh()
+    except (OverflowError, ValueError) as error:
+        raise Refused("bad-record", f"convex hull: {error}") from None
+    vertices, triangles = hull.to_bytes()
+    return replace(mesh, vertices=vertices, triangles=triangles)
+
+
 def concatenate(parts: Sequence[tuple[Block, Block, Transform | None]]) -> tuple[Block, Block]:
     """Return (vertices, triangles) of all parts, each transformed by its matrix.
 

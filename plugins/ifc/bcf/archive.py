@@ -69,7 +69,8 @@ def render(report: Report, scene: Scene) -> bytes:
             if snapshot := snapshots.of(pair):
                 name = f"{guid}/{pair.guid}"
                 files[f"{name}.bcfv"], files[f"{name}.png"] = snapshot
-                views.append(_view(pair.guid, len(views)))
+                pictured = {"viewpoint": f"{pair.guid}.bcfv", "snapshot": f"{pair.guid}.png"}
+                views.append(bcf.ViewPoint(guid=pair.guid, index=len(views), **pictured))
         topic = _topic(guid, index, pairs, views)
         files[f"{guid}/markup.bcf"] = bcf.Markup(header=_header(topics.shown(pairs)), topic=topic)
     return _archive(files)
@@ -102,11 +103,6 @@ def _topic(guid: str, index: int, pairs: Sequence[Pair], views: list[Any]) -> An
         creation_author=AUTHOR,
         viewpoints=bcf.TopicViewpoints(view_point=views),
     )
-
-
-def _view(guid: str, index: int) -> Any:
-    files = {"viewpoint": f"{guid}.bcfv", "snapshot": f"{guid}.png"}
-    return bcf.ViewPoint(guid=guid, index=index, **files)
 
 
 def _header(pairs: Iterable[Pair]) -> Any:
