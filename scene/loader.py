@@ -147,34 +147,7 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
         allowed = ReadLimits(self.seconds_per_file, permitted, hashed, reading)
         with closing(MeshFiles(allowed, known)) as files:
             builder = SceneBuilder(files, None if self.units is None else _unit(self.units))
-            have_bodies = [
-                bool(scenes[path].items) if kind == "scene" else kind != "srdf"
-                for path, kind in given
-            ]
-            alone = sum(have_bodies) == 1
-            # Colliders are exact shapes, which no mesh of a whole file holds.
-            apart = alone or reading.get("geometry") == "collision"
-            split: Split = self.split or ("nodes" if apart else "none")
-            kinds: tuple[InputKind, ...] = ("mesh", "document")
-            of_kind = {kind: [path for path, own in given if own == kind] for kind in kinds}
-            ids = {kind: iter(plain_ids(paths)) for kind, paths in of_kind.items()}
-            if split == "none":
-                files.read_ahead((path, path) for path in of_kind["mesh"])
-            for path, kind in given:
-                match kind:
-                    case "scene":
-                        builder.add(scenes[path])
-                    case "robot":
-                        geometry = self.geometry or "collision"
-                        builder.add(files.robot(path, path, self.packages or {}, geometry))
-                    case "srdf":
-                        from satcheck.scene.robot import read_srdf
-
-                        builder.add_srdf(read_srdf(path, Path(path), permitted))
-                    case _:
-                        own: Split = split if kind == "mesh" else "nodes"
-                        found = files.document(path, path, own)
-                        builder.add(_with_ids(found, path, kind, next(ids[kind]), alone))
+            self._add(given, scenes, files, builder)
             for path in _as_texts(self.rules):
                 builder.add(read_rules(path, permitted))
             scene = builder.scene()
@@ -185,6 +158,42 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
             return scene
         issues = (*scene.issues, *(issue(UNUSED_OPTION, said) for said in unused.values()))
         return replace(scene, issues=issues, rules=(*_only(self.between), *scene.rules))
+
+    def _add(
+        self,
+        given: Sequence[tuple[str, InputKind]],
+        scenes: Mapping[str, SceneFile],
+        files: MeshFiles,
+        builder: SceneBuilder,
+    ) -> None:
+        """Reads the inputs, and adds their documents in this order. given: (path, kind). Raises
+        Refused."""
+        have_bodies = (
+            bool(scenes[path].items) if kind == "scene" else kind != "srdf" for path, kind in given
+        )
+        alone = sum(have_bodies) == 1
+        # Colliders are exact shapes, which no mesh of a whole file holds.
+        apart = alone or files.allowed.options.get("geometry") == "collision"
+        split: Split = self.split or ("nodes" if apart else "none")
+        kinds: tuple[InputKind, ...] = ("mesh", "document")
+        of_kind = {kind: [path for path, own in given if own == kind] for kind in kinds}
+        ids = {kind: iter(plain_ids(paths)) for kind, paths in of_kind.items()}
+        if split == "none":
+            files.read_ahead((path, path) for path in of_kind["mesh"])
+        for path, kind in given:
+            match kind:
+                case "scene":
+                    builder.add(scenes[path])
+                case "robot":
+                    geometry = self.geometry or "collision"
+                    builder.add(files.robot(path, path, self.packages or {}, geometry))
+                case "srdf":
+                    from satcheck.scene.robot import read_srdf
+
+                    builder.add_srdf(read_srdf(path, Path(path), files.allowed.permitted))
+                case _:
+                    found = files.document(path, path, split if kind == "mesh" else "nodes")
+                    builder.add(_with_ids(found, path, kind, next(ids[kind]), alone))
 
     def _given_reading(self) -> dict[str, OptionValue]:
         """The options of readers that are given. Raises SatcheckError for one that none has, and

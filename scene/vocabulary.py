@@ -8,6 +8,7 @@ read is refused as misspelt.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
@@ -78,7 +79,7 @@ class UnknownNames:
 
     def __init__(self) -> None:
         self._messages: dict[tuple[str, str], str] = {}
-        self._counts: dict[tuple[str, str], int] = {}
+        self._counts: Counter[tuple[str, str]] = Counter()
 
     def look(self, names: Names, found: Collection[str], kind: str, place: str) -> None:
         """Take the names found at a place. kind: of the place, such as `node`; place: `node 3`.
@@ -86,25 +87,16 @@ class UnknownNames:
         if names.known.issuperset(found):
             return
         for name in found:
-            if names.knows(name):
-                continue
-            key = kind, name
-            if key in self._counts:
-                self._counts[key] += 1
-                continue
-            for message in names.unread([name], place):
-                self.note(key, message)
+            if not names.knows(name):
+                key = kind, name
+                self.note(key, self._messages.get(key) or next(names.unread([name], place)))
 
     def note(self, key: tuple[str, str], message: str) -> None:
         """Take something that blocks a pass and is no single name. key: what is named once."""
-        if key not in self._counts:
-            self._messages[key] = message
-        self._counts[key] = self._counts.get(key, 0) + 1
+        self._messages.setdefault(key, message)
+        self._counts[key] += 1
 
     def warnings(self) -> tuple[tuple[str, str], ...]:
         """Return (code, message) for each name."""
-        return tuple(
-            ("unread", message + (f" ({count} times)" if count > 1 else ""))
-            for key, message in self._messages.items()
-            for count in (self._counts[key],)
-        )
+        times = {key: f" ({n} times)" if n > 1 else "" for key, n in self._counts.items()}
+        return tuple(("unread", said + times[key]) for key, said in self._messages.items())

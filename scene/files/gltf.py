@@ -84,10 +84,6 @@ def read_gltf(file: File) -> Document:
     return replace(scene, warnings=(*scene.warnings, *warnings))
 
 
-def _without_surface(mesh: RawMesh | Refusal) -> bool:
-    return isinstance(mesh, Refusal) and mesh.code == NO_SURFACE
-
-
 class GltfScene:
     """The default scene of a document. Its methods raise Refused. kind: the noun for a node in
     messages."""
@@ -111,7 +107,11 @@ class GltfScene:
             for path, matrix in self._copies(node)
         ]
         meshes = {shape: self.mesh(shape) for shape in dict.fromkeys(one.key for one in placed)}
-        bare = {shape for shape, mesh in meshes.items() if _without_surface(mesh)}
+        bare = {
+            shape
+            for shape, mesh in meshes.items()
+            if isinstance(mesh, Refusal) and mesh.code == NO_SURFACE
+        }
         scene = raw_scene(
             [one for one in placed if one.key not in bare],
             lambda shape: self._mesh_name(shape.mesh),

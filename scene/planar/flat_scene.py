@@ -155,15 +155,12 @@ def _heights(regions: Sequence[Region]) -> list[float]:
     widest = max((float(np.ptp(region.points, axis=0).max()) for region in regions), default=1.0)
     least = 2.0 ** math.ceil(math.log2(_REACH * widest)) if widest > 0 else 1.0
     step = least / 2.0 ** len(regions).bit_length()  # a power of two: every sum is exact
-    ranks = sorted(range(len(regions)), key=lambda k: _coordinates(regions[k]))
+    coordinates = [(each.points.tolist(), each.triangles.tolist()) for each in regions]
+    ranks = sorted(range(len(regions)), key=coordinates.__getitem__)
     heights = [0.0] * len(regions)
     for rank, k in enumerate(ranks):
         heights[k] = least + step * rank
     return heights
-
-
-def _coordinates(region: Region) -> tuple[list[list[float]], list[list[int]]]:
-    return region.points.tolist(), region.triangles.tolist()
 
 
 def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:

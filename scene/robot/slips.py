@@ -105,10 +105,11 @@ class Slips:
             self.note("unread", element, error.message)
 
     def issues(self) -> tuple[Issue, ...]:
-        return tuple(
-            issue(code, f"line {lines[0]}: {cause}{_more(lines)}", file=file)
-            for (code, cause, file), lines in self._lines.items()
-        )
+        found = []
+        for (code, cause, file), lines in self._lines.items():
+            times = f" ({len(lines)} times)" if len(lines) > 1 else ""
+            found.append(issue(code, f"line {lines[0]}: {cause}{times}", file=file))
+        return tuple(found)
 
 
 def _is_value(text: str) -> bool:
@@ -127,7 +128,3 @@ def _value(word: str) -> float | str:
         return float(word)
     except ValueError:
         return word.lower()
-
-
-def _more(lines: list[int]) -> str:
-    return f" ({len(lines)} times)" if len(lines) > 1 else ""

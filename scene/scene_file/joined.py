@@ -114,7 +114,10 @@ class Joined(Struct, frozen=True):
     def body_rules(self, everybody: Bodies, bare: Bodies) -> Iterator[BodyRule]:
         """A rule about some files, and any rule beside other inputs, is written out body by
         body."""
-        files = {body.id: _file_of(body) for body in everybody}
+        files = {
+            body.id: body.file if isinstance(body, Unreadable) else body.file.path
+            for body in everybody
+        }
         for rule in (rule.scaled(self.scale) for rule in self.file.body_rules):
             is_everything = self.is_everything(everybody)
             if rule.asset is None and is_everything:
@@ -129,10 +132,6 @@ class Joined(Struct, frozen=True):
                 ids = [id_ for id_ in ids if _is_of(files[id_], rule.asset)]
             for selector in [*map(Selector.exactly, ids)] or [Selector.nobody()]:
                 yield replace(rule, bodies=selector, asset=None)
-
-
-def _file_of(body: Body | Unreadable) -> str:
-    return body.file if isinstance(body, Unreadable) else body.file.path
 
 
 def _is_of(file: str, pattern: str) -> bool:
