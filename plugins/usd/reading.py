@@ -15,7 +15,7 @@ from satcheck.plugins.usd.mesh import Skinning, read_mesh, read_tetrahedra
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.physics import with_physics
 from satcheck.plugins.usd.shapes import NoSuchShape, facets_around, placed_shape, shape_of
-from satcheck.plugins.usd.stage import Remarks, Stage, missing_parts, said
+from satcheck.plugins.usd.stage import Remarks, Stage, lost_by, missing_variants, said
 from satcheck.plugins.usd.unknown import look_at_stage
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
@@ -48,7 +48,7 @@ class Reading:
         self._refuse_lost_in_instances()
         look_at_stage(self._stage.stage, self._choice, self._said)
         look_at_layers(self._stage.stage, self._said)
-        self._lost |= missing_parts(self._stage.stage)
+        self._lost |= lost_by(self._stage.stage, missing_variants)
         for placed in Walk(self._stage.stage, self._choice.time).prims():
             self._take(placed)
         for name, reason in self._lost.items():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from msgspec import Struct
@@ -83,6 +83,7 @@ def open_stage(file: File) -> Stage:
         if not closed.permits(layer.identifier):
             raise closed.refusal(layer.identifier)
     lost, warnings = _composition_errors(stage)
+    lost |= lost_by(stage, _missing_clips)
     unit, scale = _unit(stage, warnings)
     axis = UsdGeom.GetStageUpAxis(stage)
     if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
@@ -145,20 +146,23 @@ def _may_hold_bodies(prim: Any) -> bool:
     return not prim or not (prim.IsAbstract() or prim.GetTypeName() in LOOKS)
 
 
-def missing_parts(stage: Any) -> dict[str, Refusal]:
-    """Prim -> the value clip, or the variant that it selects, which is not there. USD says nothing
-    of these."""
+def lost_by(stage: Any, missing: Callable[[Any], Iterator[str]]) -> dict[str, Refusal]:
+    """Prim -> the first that it misses. USD says nothing of these."""
     prims = stage.Traverse(Usd.TraverseInstanceProxies())
-    missing = ((str(prim.GetPath()), list(_missing(prim))) for prim in prims)
-    return {path: Refusal("missing-resource", words[0]) for path, words in missing if words}
+    lost = ((str(prim.GetPath()), next(missing(prim), None)) for prim in prims)
+    return {path: Refusal("missing-resource", words) for path, words in lost if words}
 
 
-def _missing(prim: Any) -> Iterator[str]:
+def _missing_clips(prim: Any) -> Iterator[str]:
     clips = Usd.ClipsAPI(prim)
     for name in prim.GetMetadata("clips") or ():
         for path in clips.GetClipAssetPaths(name) or ():
             if not path.resolvedPath:
                 yield f"missing value clip {path.path!r}"
+
+
+def missing_variants(prim: Any) -> Iterator[str]:
+    """Yield words about the variants that a prim selects and does not have."""
     sets = prim.GetVariantSets()
     for name in sets.GetNames() if _may_hold_bodies(prim) else ():
         variants = sets.GetVariantSet(name)
