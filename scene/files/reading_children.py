@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import msgspec
 from msgspec.structs import replace
@@ -36,51 +36,39 @@ from satcheck.scene.opening import (
     note_lost_reader,
 )
 
-if TYPE_CHECKING:
-    from satcheck.core.worker import Worker
-
 Content = TypeVar("Content")
 
 _LONGEST_MESSAGE = 200  # characters of what a library says
 
 
 class ReadingChildren:
-    """A child process for each module that serves. megabytes: limit for each child. The children
-    end by `close`, when this object is deleted, or when the process ends."""
+    """A child process, and a new one when it has died. megabytes: its limit. module: which serves.
+    The child ends by `close`, when this object is deleted, or when the process ends."""
 
-    def __init__(self, megabytes: int) -> None:
-        self._megabytes = megabytes
-        self._workers: dict[str, Worker] = {}
+    def __init__(self, megabytes: int, module: str = __name__) -> None:
+        from weakref import finalize
 
-    def ask(self, module: str, request: bytes, *, seconds: float) -> bytes:
-        """`serve(request)` of that module. seconds: for this request. Raises WorkerError.
+        from satcheck.core.worker import Worker
+
+        self._worker = Worker(module, megabytes=megabytes)
+        finalize(self, self._worker.close)
+
+    def ask(self, request: bytes, *, seconds: float) -> bytes:
+        """`serve(request)` of the module. seconds: for this request. Raises WorkerError.
 
         Earlier files may have used up the memory of a child, or damaged it. If such a child fails,
         a new one decides, so that no answer depends on earlier files.
         """
-        worker = self._worker(module)
-        fresh = worker.answered == 0
+        fresh = self._worker.answered == 0
         try:
-            return worker.ask(request, seconds=seconds)
+            return self._worker.ask(request, seconds=seconds)
         except (WorkerOutOfMemory, WorkerCrashed):
             if fresh:
                 raise
-            return worker.ask(request, seconds=seconds)
+            return self._worker.ask(request, seconds=seconds)
 
     def close(self) -> None:
-        for worker in self._workers.values():
-            worker.close()
-
-    def _worker(self, module: str) -> Worker:
-        if module not in self._workers:
-            from weakref import finalize
-
-            from satcheck.core.worker import Worker
-
-            worker = Worker(module, megabytes=self._megabytes)
-            finalize(self, worker.close)
-            self._workers[module] = worker
-        return self._workers[module]
+        self._worker.close()
 
 
 class Reply(msgspec.Struct, Generic[Content], frozen=True):
@@ -100,7 +88,7 @@ def read_in_child(
     directory = str(Path(file.directory).absolute())
     try:
         sent = pickle.dumps((read, replace(file, directory=directory, isolated=True)))
-        reply = children.ask(__name__, sent, seconds=allowed.seconds)
+        reply = children.ask(sent, seconds=allowed.seconds)
         answer = msgspec.msgpack.decode(reply, type=Reply[kind])  # type: ignore[valid-type]
     except WorkerError as error:
         note_lost_reader()

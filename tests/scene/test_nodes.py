@@ -282,8 +282,8 @@ def test_the_child_process_gives_the_same_nodes(tmp_path, monkeypatch):
 def test_limits_of_the_child_hold_for_nodes_too(tmp_path, monkeypatch):
     """The child never answers: a real one may answer before any limit, however short."""
 
-    def wait(_children, module, _request, *, seconds):
-        raise WorkerTimeout(module, seconds)
+    def wait(_children, _request, *, seconds):
+        raise WorkerTimeout("reader", seconds)
 
     monkeypatch.setattr(ReadingChildren, "ask", wait)
     path = tmp_path / "a.3mf"

@@ -51,11 +51,11 @@ def test_all_files_of_a_run_share_a_child_that_ends_with_it(
 
 
 def test_a_file_that_hangs_costs_itself_alone(started: list[worker._Child]) -> None:
-    children = ReadingChildren(512)
-    assert children.ask(SERVER, b"echo a", seconds=20.0) == b"a"
+    children = ReadingChildren(512, SERVER)
+    assert children.ask(b"echo a", seconds=20.0) == b"a"
     with pytest.raises(WorkerTimeout):
-        children.ask(SERVER, b"hang", seconds=0.5)
-    assert children.ask(SERVER, b"echo b", seconds=20.0) == b"b"
+        children.ask(b"hang", seconds=0.5)
+    assert children.ask(b"echo b", seconds=20.0) == b"b"
     assert len(started) == 2
 
 
@@ -65,19 +65,19 @@ def test_a_file_that_hangs_costs_itself_alone(started: list[worker._Child]) -> N
 def test_what_a_used_child_cannot_read_a_fresh_one_decides(
     request_: bytes, error: type[Exception], started: list[worker._Child]
 ) -> None:
-    children = ReadingChildren(512)
+    children = ReadingChildren(512, SERVER)
     with pytest.raises(error):
-        children.ask(SERVER, request_, seconds=20.0)
+        children.ask(request_, seconds=20.0)
     assert len(started) == 1  # it was fresh: its answer counts
-    assert children.ask(SERVER, b"echo a", seconds=20.0) == b"a"
+    assert children.ask(b"echo a", seconds=20.0) == b"a"
     with pytest.raises(error):
-        children.ask(SERVER, request_, seconds=20.0)
+        children.ask(request_, seconds=20.0)
     assert len(started) == 3
 
 
 def test_children_end_with_their_owner(started: list[worker._Child]) -> None:
-    children = ReadingChildren(512)
-    children.ask(SERVER, b"echo a", seconds=20.0)
+    children = ReadingChildren(512, SERVER)
+    children.ask(b"echo a", seconds=20.0)
     assert started[0]._process.poll() is None
     del children
     assert started[0]._process.returncode is not None
