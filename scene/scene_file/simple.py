@@ -95,9 +95,7 @@ def read_scene(text: SceneText) -> SceneFile:
     bodies, rules = text.each("bodies", body), text.each("allowed_pairs", rule)
     text.raise_any()
     strange = [
-        issue(
-            "unknown-key", f"unknown key {key!r}{meant(key, known)}: it is ignored", file=text.path
-        )
+        f"unknown key {key!r}{meant(key, known)}: it is ignored"
         for key in values
         if key not in known | _INFORMATION
     ]
@@ -107,6 +105,6 @@ def read_scene(text: SceneText) -> SceneFile:
         bodies,
         ignored=frozenset(top.ignore_within_groups),
         check_static=True,
-        issues=[*strange, *issues],
+        issues=[*(issue("unknown-key", said, file=text.path) for said in strange), *issues],
         rules=tuple(filter(None, rules)),
     )
