@@ -9,7 +9,8 @@ overlap without figures may be worse: it is undecided, unless somebody accepted 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import get_args
@@ -19,7 +20,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.messages import with_messages
 from satcheck.audit.settings import Settings
-from satcheck.audit.words import number, with_unit
+from satcheck.audit.words import counted, number, with_unit
 from satcheck.core.errors import SatcheckError
 from satcheck.report.baseline import (
     SCHEMA,
@@ -33,7 +34,7 @@ from satcheck.report.baseline import (
     UndecidedBy,
 )
 from satcheck.report.judge import is_within, keeps
-from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
+from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Issue, Report
 from satcheck.report.values import Interval, Relation
 from satcheck.report.verdict import fails, summarise
 from satcheck.scene.opening import (
@@ -47,7 +48,9 @@ from satcheck.scene.opening import (
     signature,
 )
 from satcheck.scene.units import unit_of
+from satcheck.scene.words import listed
 
+GONE_ASSETS = "gone-assets"
 # From the mildest to the gravest.
 _GRAVITY: dict[KnownRelation, int] = {
     "separated": 0,
@@ -181,6 +184,25 @@ def _would_fail(known: KnownFinding, report: Report) -> bool:
     return any(clearance is not None and clearance > gap for clearance in clearances)
 
 
+def gone_assets(baseline: Baseline, file: Path) -> Counter[str]:
+    """Return the assets that are no files any more, with the number of their known findings. file:
+    of the baseline."""
+    known, folder = Counter(filter(None, baseline.assets)), followed(file.parent)
+    return Counter({asset: n for asset, n in known.items() if not exists(folder / asset)})
+
+
+def about_gone_assets(baseline: Baseline, file: Path) -> tuple[Issue, ...]:
+    """Return a note about known findings that no check can find again."""
+    gone = gone_assets(baseline, file)
+    if not gone:
+        return ()
+    are_all = gone.keys() == set(baseline.assets)
+    step = "was it written in another folder?" if are_all else "satcheck baseline prune"
+    assets = counted(len(gone), "asset that is", "assets that are")
+    said = f"{counted(gone.total(), 'known finding')} of {assets} gone ({listed([*gone])}): {step}"
+    return (Issue(GONE_ASSETS, "note", None, str(file), said),)
+
+
 def measuring(settings: Settings) -> Settings:
     """Return the settings of a check beside a baseline: it compares the figures of all overlaps, as
     far as their own budgets go. The figures of a pair then depend on no other pair."""
@@ -227,10 +249,13 @@ def _merged(old: KnownFinding | None, new: KnownFinding) -> KnownFinding:
     )
 
 
-def pruned(baseline: Baseline, absent: Sequence[KnownFinding]) -> Baseline:
-    gone = {each.key for each in absent}
-    kept = (each for each in baseline.findings if each.key not in gone)
-    return _sorted(kept, baseline.undecided)
+def pruned(
+    baseline: Baseline, absent: Sequence[KnownFinding], gone: Collection[str] = ()
+) -> Baseline:
+    """Return the baseline without these findings, and without those of assets that are gone."""
+    keys = {each.key for each in absent}
+    kept = (e for e in baseline.findings if e.key not in keys and e.asset not in gone)
+    return _sorted(kept, (each for each in baseline.undecided if each.asset not in gone))
 
 
 def _sorted(findings: Iterable[KnownFinding], undecided: Iterable[KnownUndecided]) -> Baseline:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import click
 
-from satcheck.audit.baseline import read_baseline
+from satcheck.audit.baseline import about_gone_assets, read_baseline
 from satcheck.audit.batch.local import check_locally
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import is_url, local_results
@@ -97,6 +97,9 @@ def check_worlds(
             return seen.exit_code(exit_zero=to.exit_zero)
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
+        if terms.baseline is not None:
+            file = Path(terms.baseline)
+            issues += about_gone_assets(read_baseline(file), file)
         read: AbstractContextManager[StoredResults | NewResults]
         new = NewResults(Path(path), tally.done)
         read = StoredResults([Path(path)]) if stays else nullcontext(new)

@@ -79,6 +79,11 @@ class Baseline(Value, frozen=True, kw_only=True):
     findings: tuple[KnownFinding, ...] = ()
     undecided: tuple[KnownUndecided, ...] = ()
 
+    @property
+    def assets(self) -> list[str]:
+        """That of each entry."""
+        return [*(each.asset for each in self.findings), *(each.asset for each in self.undecided)]
+
 
 class StatedBaseline(Value, frozen=True):
     """The baseline that a report was compared with. absent: known findings of pairs that were

@@ -11,6 +11,7 @@ from msgspec.structs import replace
 from satcheck.audit.baseline import (
     absent_from,
     asset_key,
+    gone_assets,
     known_findings,
     known_undecided,
     of_unknown_depth,
@@ -87,22 +88,27 @@ def write(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -
 )
 @acceptance
 def update(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) -> None:
-    """Add new findings of reports, and take over figures that are worse or were not known."""
+    """Add new findings of reports, and take over figures that are worse or were not known. Other
+    findings stay, also those of assets that are gone."""
     _update(file, read_baseline(file), reports, reason, **accepting)
 
 
-@command.command("prune", context_settings=HELP_NAMES, short_help="Remove findings that pass now.")
+@command.command(
+    "prune",
+    context_settings=HELP_NAMES,
+    short_help="Remove findings that pass now, or whose asset is gone.",
+)
 @file_argument
 @reports_argument
 def prune(file: Path, reports: Sequence[Path]) -> None:
-    """Remove findings of pairs that the reports checked again, and that pass now."""
+    """Remove findings of pairs that the reports checked again, and that pass now; and those of
+    assets that are gone, and in no report."""
     baseline = read_baseline(file)
-    absent = [
-        known
-        for asset, report in _named_reports(reports, file)
-        for known in absent_from(report, baseline, asset)
-    ]
-    _write(file, baseline, pruned(baseline, absent))
+    absent, gone = list[KnownFinding](), gone_assets(baseline, file)
+    for asset, report in _named_reports(reports, file):
+        absent += absent_from(report, baseline, asset)
+        gone.pop(asset, None)
+    _write(file, baseline, pruned(baseline, absent, gone))
 
 
 def _update(

@@ -39,13 +39,10 @@ MESHES = {
 
 
 _STATES: tuple[BaselineState, ...] = ("accepted", "new", "worse", "undecided")
-# States of findings that the baseline has.
-_OF_KNOWN: tuple[BaselineState, ...] = ("unchanged", "accepted", "worse", "undecided")
 _UNDECIDED = (
     " An undecided finding has no figure to compare, or one that is too wide or in another unit: "
     "add --depth, --clearance or --volume, or update the baseline."
 )
-_UNKNOWN = " It has none of these pairs: are the paths those with which it was written?"
 
 
 def counts_line(report: Report) -> str:
@@ -163,8 +160,6 @@ class BesideBaseline(Struct):
         passing = counted(self.absent, "more passes", "more pass")
         gone = f"; {passing} now: satcheck baseline prune" if self.absent else ""
         advice = _UNDECIDED if self.states["undecided"] else ""
-        if self.states["new"] and not (self.absent or any(self.states[s] for s in _OF_KNOWN)):
-            advice = _UNKNOWN
         return [f"Baseline: {', '.join(parts)}{gone}.{advice}"]
 
 
