@@ -175,7 +175,8 @@ def _would_fail(known: KnownFinding, report: Report) -> bool:
     """Return whether the settings of this report may show the finding as it is known."""
     if SEVERITIES.index(known.severity) > SEVERITIES.index(report.settings.fail_on):
         return False
-    if known.units != report.units or (known.moves and not report.motions):
+    # A file without a unit has the same coordinates where rules or --units lend it one.
+    if known.units not in (None, report.units) or (known.moves and not report.motions):
         return False
     if known.relation in OVERLAPS or (known.relation == "touching" and known.severity == "note"):
         return True

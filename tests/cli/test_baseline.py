@@ -190,6 +190,7 @@ def test_a_finding_is_absent_only_if_its_pair_was_checked() -> None:
     assert absent_from(report(UNDECIDED), baseline) == []
     for unseen in (replace(gone, motion_depth=1.0), replace(gone, units="mm")):
         assert absent_from(report(SEPARATED), Baseline(findings=(unseen,))) == []
+    assert absent_from(report(SEPARATED, units="m"), Baseline(findings=(gone,))) == [gone]
 
 
 def test_a_gap_is_absent_only_if_the_check_would_show_it() -> None:
