@@ -15,7 +15,7 @@ from satcheck.audit.messages import of_command
 from satcheck.audit.words import counted, with_titles
 from satcheck.cli.format_option import Target
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.summary import MESHES, counts_line, next_step
+from satcheck.cli.formats.summary import FACETED, MESHES, counts_line, next_step
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.output import Document, Page, harmless, issue_line, talk
 from satcheck.report.json import document as json_document
@@ -102,7 +102,7 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
         result = in_one_line_each(with_titles(result))
         counts = counts_line(result)
         summary = " ".join([of_command(result), *next_step(result, written=True)])
-    warnings = [issue for issue in result.issues if issue.severity == "warning"]
+    warnings = [i for i in result.issues if i.severity == "warning" or i.code == FACETED]
     warnings.sort(key=lambda issue: issue.code in MESHES)  # the least grave
     for issue in warnings[:WARNINGS]:
         talk(f"satcheck: {issue_line(issue)}")

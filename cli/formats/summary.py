@@ -169,6 +169,7 @@ def beside_baseline(report: Report) -> list[str]:
     return beside.lines()
 
 
+FACETED = "faceted"
 # More overlaps than this are rarely mended one by one.
 MANY = 10
 
@@ -179,10 +180,10 @@ def summary_line(report: Report) -> str:
 
 
 def next_step(report: Report, *, written: bool = False) -> list[str]:
-    """`Next: -o report.html shows the overlaps.`; nothing after a pass. written: the report goes
-    to a file."""
+    """`Next: -o report.html shows the overlaps.`; after a pass only what facets may hide. written:
+    the report goes to a file."""
     steps = _after_failure(report, written) if report.summary.verdict == "fail" else _open(report)
-    return [f"Next: {step}." for step in steps if step]
+    return [f"Next: {step}." for step in (*steps, *_within_facets(report)) if step]
 
 
 def _after_failure(report: Report, written: bool) -> Iterator[str]:
@@ -231,6 +232,23 @@ def _open(report: Report) -> Iterator[str]:
         yield "a larger --budget may decide it"
     else:
         yield "--explain shows the steps"
+
+
+def _within_facets(report: Report) -> Iterator[str]:
+    """What the facets of a file excuse although a limit of this call is finer."""
+    thick, deep = report.settings.max_thickness, report.settings.max_depth
+    excused = sum(
+        (thick is not None and (each.thickness or 0.0) > thick)
+        or (deep is not None and (each.depth or 0.0) > deep)
+        for each in report.findings
+        if each.at_rest == "touching" and each.exact_relation in OVERLAPS
+    )
+    if excused and any(issue.code == FACETED for issue in report.issues):
+        pairs = counted(excused, "pair overlaps", "pairs overlap")
+        yield (
+            f"a smaller --read chord-tolerance: {pairs} by more than the limit, and by no more "
+            "than the facets may be off"
+        )
 
 
 def _has_no_thickness(finding: Finding) -> bool:

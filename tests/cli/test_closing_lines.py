@@ -7,8 +7,10 @@ from msgspec.structs import replace
 
 from satcheck.audit.messages import with_messages
 from satcheck.cli import exit_codes
+from satcheck.cli.formats.summary import FACETED, next_step
 from satcheck.cli.formats.table import render
 from satcheck.cli.output import PLAIN_PAGE, Page
+from satcheck.cli.rendering import tell
 from satcheck.report.report import (
     INTERNAL_ERROR,
     NOTHING_TO_CHECK,
@@ -16,6 +18,7 @@ from satcheck.report.report import (
     Issue,
     Stage,
 )
+from satcheck.scene import Scene
 from tests.cli import reports
 from tests.cli.reports import (
     BOUNDED,
@@ -26,6 +29,7 @@ from tests.cli.reports import (
     SWEEP,
     SWEPT,
     THICK,
+    TOUCHING,
     UNDECIDED,
     report,
 )
@@ -317,3 +321,27 @@ def test_a_name_gives_a_terminal_no_orders(name: str, colour: bool) -> None:
     lines = ESCAPES.sub("", shown(replace(PENETRATING, a=name), page=page)).split("\n")
     assert all(line.isprintable() for line in lines)
     assert any("\N{REPLACEMENT CHARACTER}" in line for line in lines)
+
+
+def test_facets_that_excuse_more_than_a_limit_are_told() -> None:
+    faceted = Issue(FACETED, "note", None, "a.step", "facets are off by 0.5 mm")
+    found = replace(TOUCHING, thickness=0.4, depth=0.4)
+    made = report(found, issues=(faceted,))
+
+    def said(**limits: float) -> list[str]:
+        return next_step(replace(made, settings=replace(made.settings, **limits)), written=True)
+
+    assert said() == said(max_thickness=0.4) == []
+    assert "1 pair overlaps by more than the limit" in said(max_thickness=0.3)[0]
+    assert said(max_depth=0.3) == said(max_thickness=0.3)
+    assert next_step(replace(made, issues=())) == []
+
+
+def test_facets_are_told_beside_a_report_in_a_file(capsys: pytest.CaptureFixture[str]) -> None:
+    faceted = Issue(FACETED, "note", None, "a.step", "facets are off by 0.5 mm")
+    other = Issue("left-out", "note", None, "a.step", "a sketch")
+    scene = Scene(name="", units=None, bodies=())
+    tell(report(SEPARATED, issues=(faceted, other)), scene, "Report: a.json", written=True)
+    told = capsys.readouterr().err
+    assert "note: a.step: facets are off by 0.5 mm [faceted]" in told
+    assert "left-out" not in told
