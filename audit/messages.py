@@ -24,16 +24,16 @@ from satcheck.audit.words import (
     limits,
     number,
     past_holes,
-    severity,
     short_names,
     vector,
     with_titles,
     with_unit,
     worst_first,
 )
+from satcheck.report.motions import JointPath
 from satcheck.report.report import BEYOND_BUDGET, INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
 from satcheck.report.request import OPTIONS_OF_LIMITS
-from satcheck.report.verdict import is_failure, is_unmet, unlisted_indeterminate
+from satcheck.report.verdict import is_failure, is_unmet, severity, unlisted_indeterminate
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -137,7 +137,16 @@ def _no_collision(report: Report) -> str:
     by = dict.fromkeys(who for finding in report.findings for who in _allowing(finding))
     allow = "allows" if len(by) == 1 and "rules" not in by else "allow"
     none = f"no collision beyond what {' and '.join(by)} {allow}" if by else "no collision"
-    return none if report.summary.verdict == "pass" else f"{none} was found"
+    found = "" if report.summary.verdict == "pass" else " was found"
+    return f"{none}{found}{_while_moving(report)}"
+
+
+def _while_moving(report: Report) -> str:
+    """Return ` on the path through 3 poses`; nothing where bodies stand still."""
+    for motion in report.motions:
+        if isinstance(motion, JointPath):
+            return f" on the path through {counted(len(motion.waypoints), 'pose')}"
+    return f" during {counted(len(report.motions), 'motion')}" if report.motions else ""
 
 
 def _allowing(finding: Finding) -> list[str]:

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from satcheck.report.baseline import HELD
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES
 from satcheck.report.request import OPTIONS_OF_LIMITS
+from satcheck.report.verdict import severity
 from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
-    from satcheck.report.report import BodyReport, Finding, Relation, Report, RuleReport, Severity
+    from satcheck.report.report import BodyReport, Finding, Relation, Report, RuleReport
     from satcheck.report.sweep import Joints, Place
     from satcheck.report.values import Interval
 
@@ -284,11 +284,6 @@ def _renamed(report: Report, shown: Mapping[str, str]) -> Report:
 
 def _of(shown: Mapping[str, str], body: str | None) -> str | None:
     return None if body is None else shown.get(body, body)
-
-
-def severity(finding: Finding) -> Severity:
-    """A finding that a baseline holds is a note."""
-    return "note" if finding.baseline_state in HELD else finding.severity
 
 
 def is_listed(finding: Finding) -> bool:

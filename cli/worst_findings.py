@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.key import digest
 from satcheck.audit.batch.stored import Stored
-from satcheck.audit.words import rank, severity
+from satcheck.audit.words import rank
 from satcheck.cli.formats.assets import worst_of
 from satcheck.cli.output import cannot_write, harmless, talk, write_file
 from satcheck.cli.progress import Bar
@@ -21,6 +21,7 @@ from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset
 from satcheck.report.report import Finding, Report
+from satcheck.report.verdict import severity
 
 # A larger scene is drawn without its other bodies.
 MOST_BODIES = 100

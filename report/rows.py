@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.core.errors import SatcheckError
-from satcheck.report.verdict import is_failure
+from satcheck.report.verdict import is_failure, severity
 
 if TYPE_CHECKING:
     import pandas
@@ -50,6 +50,7 @@ def row_of(finding: Finding, report: Report) -> dict[str, str | float | bool | N
         **_parts("witness_b", witness.b if witness else None),
     }
     verdict = {
+        "severity": severity(finding),
         "fails": is_failure(finding, report.settings.fail_on),
         "baseline": finding.baseline_state,
     }

@@ -37,6 +37,11 @@ def is_failure(finding: Finding, fail_on: FailOn) -> bool:
     return fails(finding, fail_on) and finding.baseline_state not in HELD
 
 
+def severity(finding: Finding) -> Severity:
+    """Return its severity for the check: a finding that a baseline holds is a note."""
+    return "note" if finding.baseline_state in HELD else finding.severity
+
+
 def is_unmet(finding: BodyAnswer, fail_on: FailOn) -> bool:
     """Return whether the check fails by the answer to a question about a single body."""
     return finding.answer != "open" and _RANK[finding.severity] <= _RANK[fail_on]

@@ -21,7 +21,6 @@ from satcheck.audit.words import (
     is_hit,
     is_unusable,
     number,
-    severity,
     vector,
     without_root,
     worst_first,
@@ -45,6 +44,7 @@ from satcheck.cli.formats.tables import (
     table,
 )
 from satcheck.report.report import OVERLAPS
+from satcheck.report.verdict import severity
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:

@@ -8,9 +8,10 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import TYPE_CHECKING
 
-from satcheck.audit.words import counted, severity
+from satcheck.audit.words import counted
 from satcheck.cli.formats.assets import cells_of, summary_line
 from satcheck.cli.output import harmless, issue_line
+from satcheck.report.verdict import severity
 
 if TYPE_CHECKING:
     from satcheck.cli.formats.assets import Overview

@@ -226,3 +226,11 @@ def test_misuse_exits_with_two(arguments: tuple[str, ...], said: str) -> None:
     assert ran.code == 2
     assert said in ran.err.replace("\n", " ")
     assert ran.out == ""
+
+
+def test_a_path_that_passes_says_through_how_many_poses(tmp_path: Path) -> None:
+    path = tmp_path / "path.json"
+    path.write_text('[{"shoulder": 0}, {"shoulder": 0.1}]')
+    arm = (str(SAMPLES / "arm.urdf"), str(SAMPLES / "arm.srdf"))
+    ran = satcheck(*arm, "--path", str(path))
+    assert ran.out.endswith("PASS: no collision on the path through 2 poses.\n")

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 from urllib.parse import quote
 
 from satcheck.audit.messages import kind_of
-from satcheck.audit.words import rank, severity
+from satcheck.audit.words import rank
 from satcheck.report.bodies import Place
 from satcheck.report.report import OF_ANSWERS
+from satcheck.report.verdict import severity
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator

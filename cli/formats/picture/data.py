@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from satcheck.audit.messages import measured, wrong_pairs
-from satcheck.audit.words import counted, is_listed, severity, worst_first
+from satcheck.audit.words import counted, is_listed, worst_first
 from satcheck.cli.formats.details import facts
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.formats.picture.geometry import geometry
@@ -20,7 +20,7 @@ from satcheck.cli.formats.summary import summary_line
 from satcheck.cli.output import issue_line
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import OVERLAPS
-from satcheck.report.verdict import is_failure
+from satcheck.report.verdict import is_failure, severity
 from satcheck.scene.statics import up_axes
 from satcheck.scene.units import unit_of
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from satcheck.audit.words import is_hit, severity, short_names
+from satcheck.audit.words import is_hit, short_names
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
 from satcheck.cli.formats.picture.data import (
     drawn_finding,
@@ -29,6 +29,7 @@ from satcheck.cli.formats.picture.raster import INNER, MARKS, Kind, Triangles, d
 from satcheck.cli.formats.picture.shown import Shows, placed_point
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, of_all
 from satcheck.report.report import OVERLAPS
+from satcheck.report.verdict import severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

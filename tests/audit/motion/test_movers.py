@@ -200,8 +200,8 @@ def test_a_clearance_that_is_not_decided_is_no_hit(tmp_path: Path, monkeypatch) 
     text = table.render(report, page, explain=False, timings=False)
     open_gap = f"undecided: clearance is {clearance:.9g} (--clearance), and the gap is between"
     assert f"a and b: {open_gap}" in text
-    said = "INCOMPLETE: no collision was found, but 1 pair may be closer than its clearance."
-    assert f"\n{said}\nNext:" in text
+    said = "INCOMPLETE: no collision was found during 1 motion, but 1 pair may be closer"
+    assert f"\n{said} than its clearance.\nNext:" in text
 
 
 def test_a_touch_within_a_wide_band_may_keep_its_clearance(tmp_path: Path) -> None:
