@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.cli.formats.picture.png import KINDS, OVERLAP, SIZE, WHITE, image_file, render
+from satcheck.cli.formats.picture.png import BAND, KINDS, OVERLAP, SIZE, WHITE, image_file, render
 from satcheck.cli.formats.picture.raster import Kind, Triangles, drawn
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import load_scene
+from satcheck.scene import Scene, load_scene
 from satcheck.scene.meshes import scene_of_meshes
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
 
@@ -122,6 +122,26 @@ def test_both_bodies_and_their_overlap_are_seen() -> None:
     assert (orange & ~red).mean() > 0.05
     black = near(image, (0.0, 0.0, 0.0))
     assert black.any()  # the arrow
+
+
+def test_beside_a_pair_of_a_large_scene_all_of_it_is_seen() -> None:
+    pair = load_scene([str(SAMPLES / name) for name in PUSHED]).bodies
+    meshes = {body.id: body.world_mesh() for body in pair}
+    far = np.eye(4)
+    far[0, 3] = 30.0
+
+    def strip_of(scene: Scene) -> np.ndarray:
+        """Without the caption."""
+        image = pixels(render(check(scene, DEPTH), scene))
+        return image[: int(0.88 * SIZE[1]), int(0.76 * SIZE[0]) :]
+
+    alone = strip_of(scene_of_meshes(meshes))
+    beside = strip_of(scene_of_meshes({**meshes, "far": pair[0].world_mesh()}, {"far": far}))
+    assert near(alone, BAND, 0.005).mean() < 0.05  # labels
+    assert near(beside, BAND, 0.005).mean() > 0.7
+    ring, grey = near(beside, KINDS[6].colour), np.ptp(beside, axis=2) < 0.04
+    assert 0 < ring.mean() < 0.02
+    assert (grey & (beside.mean(axis=2) < 0.9)).any()  # the other body
 
 
 def test_bodies_in_contact_share_nothing_red() -> None:

@@ -1,7 +1,8 @@
 """The worst finding as an image, PNG: drawn without a GPU or a window.
 
 A is blue, B orange, both translucent, and what they share red, with the way out or the gap, the
-ball of the thickness, labels and a caption. Bodies that hit while they move stand as they do then.
+ball of the thickness, labels and a caption. Where other bodies are beyond the view, all of them are
+beside it, with a ring around what is seen. Bodies that hit while they move stand as they do then.
 Without a finding: all bodies, those that fail in red, with contact forces in green, and how bodies
 that fall start to move in black.
 """
@@ -32,7 +33,7 @@ from satcheck.report.report import OVERLAPS
 from satcheck.report.verdict import severity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     import numpy.typing as npt
 
@@ -68,6 +69,9 @@ _INNER = {"contains": 1, "inside": 0, "coincident": 0}
 CROWD, FAINT = 100, 0.025  # of so many bodies each is as faint
 OVERLAP = Kind(RED, 0.9)
 MARGIN = 1.1
+# A scene that reaches so many radii of the view has a strip beside it, of this share of the width,
+# in which bodies but the pair have this alpha; and the ring: its points, its least radius.
+_CLOSE, _STRIP, _ASIDE, _RING, _LEAST_RING = 1.6, 0.25, 0.3, 65, 0.06
 LINE, THICK = 1.0, 2.0  # half the width of a line in pixels, and of the rim of a hole
 # The colours of labels.
 _LABELS = {"a": A, "b": B, "arrow": ARROW, "gap": FORCE, "ball": BALL, "hit": CURVE, "hole": RIM}
@@ -111,8 +115,13 @@ def render(
         return image_file(_captioned(image, [[(None, headline(report, moments))]], size))
     shows = Shows(report, scene, moments, up)
     shown = shows.of(finding)
+    bodies = shows.scene_at(shown.moment).bodies
+    aside = _beside(bodies, shown, up, room) if _is_close(bodies, shown) else None
+    if aside is not None:
+        room = room[0] - aside.shape[1], room[1]
     view = view_of(shown.view, shown.pair, up, room, shown.marks.points())
-    image = image_of(shows.scene_at(shown.moment), shown, view, room)
+    image = image_of(bodies, shown, view, room)
+    image = image if aside is None else np.concatenate([image, aside], axis=1)
     a, b = short_names(finding.a, finding.b)
     said = [moments.note] if moments.note else []
     said += [] if is_hit(finding) and shown.marks.hit is not None else [finding.at_rest]
@@ -121,15 +130,39 @@ def render(
     return image_file(_captioned(image, [[(A, a), (B, b)], [(None, words)]], size))
 
 
-def image_of(scene: Scene, shown: Shown, view: View, size: tuple[int, int]) -> Pixels:
-    """The pair with its marks and labels. scene: its bodies as they stand then."""
+def _is_close(bodies: Sequence[Body], shown: Shown) -> bool:
+    """Return whether a picture of the pair does not tell where in the scene it is."""
+    return sphere_around(list(bodies))[1] > _CLOSE * shown.view.radius
+
+
+def _beside(bodies: Sequence[Body], shown: Shown, up: str, size: tuple[int, int]) -> Pixels:
+    """Return all bodies from the same side, for a strip of an image of this size: the pair solid,
+    the others faint, and a ring around what the view shows."""
+    kinds = [kind._replace(alpha=1.0) for kind in KINDS]
+    kinds[OTHER] = kinds[OTHER]._replace(alpha=_ASIDE)
+    numbers = {shown.finding.a: A, shown.finding.b: B}
+    centre, radius = sphere_around(list(bodies))
+    seen, strip = shown.view._replace(target=centre, radius=radius), round(_STRIP * size[0])
+    turn = np.linspace(0.0, 2.0 * np.pi, _RING)
+    right, above, _ = seen.rows(up)
+    reach = max(shown.view.radius, _LEAST_RING * radius)
+    ring = shown.view.target + reach * (
+        np.outer(np.cos(turn), right) + np.outer(np.sin(turn), above)
+    )
+    view = view_of(seen, list(bodies), up, (strip, size[1]), ring)
+    meshes = ((body.world_mesh(), numbers.get(body.id, OTHER)) for body in bodies)
+    return _image(meshes, [(ring, CURVE)], kinds, view, (strip, size[1]), ground=BAND)
+
+
+def image_of(bodies: Sequence[Body], shown: Shown, view: View, size: tuple[int, int]) -> Pixels:
+    """The pair with its marks and labels. bodies: of the scene, as they stand then."""
     kinds, finding = list(KINDS), shown.finding
-    if len(scene.bodies) > CROWD:
+    if len(bodies) > CROWD:
         kinds[OTHER] = kinds[OTHER]._replace(alpha=FAINT)
     lines = [(line, CURVE) for line in shown.marks.lines]
     lines += [(line, RIM) for line in (shown.marks.rim.lines if shown.marks.rim else [])]
     overlap = OVERLAP if finding.at_rest in OVERLAPS else None
-    image = _image(_meshes(scene, shown), lines, kinds, view, size, overlap)
+    image = _image(_meshes(bodies, shown), lines, kinds, view, size, overlap)
     _label(image, shown, view)
     return image
 
@@ -145,6 +178,7 @@ def _image(
     view: View,
     size: tuple[int, int],
     overlap: Kind | None = None,
+    ground: Colour = WHITE,
 ) -> Pixels:
     """meshes, lines: in the world, with their kinds. overlap: of what A and B have in common."""
     corners, numbers = [np.empty((0, 3, 3))], [np.empty(0, dtype=np.int64)]
@@ -157,7 +191,7 @@ def _image(
         corners.append(quads)
         numbers.append(np.full(len(quads), kind))
     triangles = Triangles(np.concatenate(corners), np.concatenate(numbers))
-    return drawn(triangles, kinds, overlap, size, WHITE)
+    return drawn(triangles, kinds, overlap, size, ground)
 
 
 def _letter(size: tuple[int, int]) -> float:
@@ -257,13 +291,13 @@ def view_of(
     return View(rows, (low + high) / 2 @ rows, 1.0 / (MARGIN * largest), middle)
 
 
-def _meshes(scene: Scene, shown: Shown) -> Iterator[tuple[Mesh, int]]:
+def _meshes(bodies: Iterable[Body], shown: Shown) -> Iterator[tuple[Mesh, int]]:
     """In the world, with their kinds."""
     finding, marks = shown.finding, shown.marks
     kinds = {finding.a: A, finding.b: B}
     if finding.at_rest in _INNER:
         kinds[(finding.a, finding.b)[_INNER[finding.at_rest]]] = SHARED
-    for body in scene.bodies:
+    for body in bodies:
         yield body.world_mesh(), kinds.get(body.id, OTHER)
     radius = sphere_around(shown.pair)[1]
     beside = min(radius, shown.view.radius)

@@ -17,7 +17,6 @@ from uuid import NAMESPACE_URL, uuid5
 
 import numpy as np
 from bcf.v3 import model as bcf
-from msgspec.structs import replace
 from xsdata.formats.dataclass.serializers import XmlSerializer
 from xsdata.formats.dataclass.serializers.writers import XmlEventWriter
 from xsdata.models.datatype import XmlDateTime
@@ -163,8 +162,7 @@ class Snapshots:
         else:
             seen = self._shows.of(shown.finding)
             view = view_of(seen.view, pair, self._up, SIZE, seen.marks.points())
-            near = replace(self._scene, bodies=tuple(self._near(view)))
-            image = image_of(near, seen, view, SIZE)
+            image = image_of(self._near(view), seen, view, SIZE)
         camera = self._camera(view, pair)
         visible = bcf.VisualizationInfo(
             guid=shown.guid, components=_components(shown), orthogonal_camera=camera
