@@ -23,7 +23,7 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import DEFAULT_COMMAND
 from satcheck.cli.format_option import form_of, format_option
 from satcheck.cli.formats.registry import Format
-from satcheck.cli.formats.suggest import remark, srdf, toml
+from satcheck.cli.formats.suggest import remark, rules_of, srdf, toml
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.option import settings_of
 from satcheck.cli.output import Document, issue_line, talk
@@ -125,10 +125,11 @@ def command(
 
 def _tell_of_assets(result: Suggestions, inputs: Inputs) -> None:
     """Say what to do where a rule, which goes by names, would loosen another asset."""
-    if any(pair.reason.startswith(LOOSER) for pair in result.report.unchecked):
+    refused = any(pair.reason.startswith(LOOSER) for pair in result.report.unchecked)
+    if refused or any(rule.milder for rule in rules_of(result, result.report.suggestions)):
         line = call_of("batch", inputs.paths, ["-o", "report.json"])
         talk(f"Next: {line}, then satcheck baseline write baseline.json report.json accepts what")
-        talk("each asset has now. Rules cannot: they go by names, in all assets alike.")
+        talk("each asset has now, by itself.")
 
 
 def _of_scene(scene: Scene, inputs: Inputs, settings: Settings) -> Suggestions:

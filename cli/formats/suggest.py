@@ -40,33 +40,49 @@ class Rule(Struct, frozen=True):
     others: int = 0
 
     @property
-    def max_thickness(self) -> float | None:
-        return _largest(pair.max_thickness for pair in self.pairs)
+    def limits(self) -> dict[str, float]:
+        """What every pair keeps, of the figures that are known of all."""
+        of_all = {
+            name: [getattr(pair, name) for pair in self.pairs]
+            for name in ("max_thickness", "max_depth")
+        }
+        known = {name: max(own) for name, own in of_all.items() if None not in own}
+        return known or {name: max(kept) for name, own in of_all.items() if (kept := _known(own))}
 
     @property
-    def max_depth(self) -> float | None:
-        return _largest(pair.max_depth for pair in self.pairs)
+    def milder(self) -> int:
+        """The number of pairs that the limits let overlap more than they do, beyond the margin."""
+        limits = self.limits
+        own = sum(
+            not all(_alike(getattr(pair, name), most) for name, most in limits.items())
+            for pair in self.pairs
+        )
+        return self.others + own if self.pairs[0].why == "contact" else 0
+
+    @property
+    def worst(self) -> list[str]:
+        """The assets that set the limits."""
+        found = (
+            next(pair for pair in self.pairs if getattr(pair, name) == most)
+            for name, most in self.limits.items()
+        )
+        return [*dict.fromkeys(pair.asset for pair in found if pair.asset is not None)]
 
     @property
     def is_group(self) -> bool:
         """Return whether one rule stands for several pairs: they have the same limits, up to the
         margin, and no other pair has such names."""
-        thickness, depth = self.max_thickness, self.max_depth
-        alike = (
-            pair.why == "contact"
-            and _alike(pair.max_thickness, thickness)
-            and _alike(pair.max_depth, depth)
-            for pair in self.pairs
-        )
-        return len(self.pairs) > 1 and not self.others and all(alike)
+        said = {(p.why, p.max_thickness is None, p.max_depth is None) for p in self.pairs}
+        are_alike = len(said) == 1 and self.pairs[0].why == "contact" and not self.milder
+        return len(self.pairs) > 1 and are_alike
 
 
-def _largest(values: Iterable[float | None]) -> float | None:
-    return max((value for value in values if value is not None), default=None)
+def _known(values: Iterable[float | None]) -> list[float]:
+    return [value for value in values if value is not None]
 
 
-def _alike(limit: float | None, largest: float | None) -> bool:
-    return limit is largest if limit is None or largest is None else largest <= limit * MARGIN
+def _alike(limit: float | None, largest: float) -> bool:
+    return limit is not None and largest <= limit * MARGIN
 
 
 def rules_of(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> list[Rule]:
@@ -141,10 +157,7 @@ def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
 
 def _lines(rule: Rule, report: SuggestionsReport) -> Iterator[str]:
     yield from ("[[rules]]", f"a = {quoted(rule.a)}", f"b = {quoted(rule.b)}")
-    if rule.max_thickness is not None:
-        yield f"max_thickness = {rule.max_thickness!r}"
-    if rule.max_depth is not None:
-        yield f"max_depth = {rule.max_depth!r}"
+    yield from (f"{name} = {most!r}" for name, most in rule.limits.items())
     if rule.pairs[0].why != "contact":
         yield "allowed = true"
     yield f"reason = {quoted(f'{SUGGESTED}{evidence(rule, report)}; confirm')}"
@@ -157,10 +170,9 @@ def evidence(rule: Rule, report: SuggestionsReport) -> str:
     said += ["a joint connects them"] if first.why == "adjacent" else []
     placed = [pair.relation for pair in pairs if pair.relation not in (None, "separated")]
     said += [" or ".join(sorted(set(map(str, placed))))] if placed else []
-    thickness = _largest(p.thickness_bounds and p.thickness_bounds[1] for p in pairs)
-    depth = _largest(p.depth_bounds and p.depth_bounds[1] for p in pairs)
-    for name, figure in (("thickness", thickness), ("depth", depth)):
-        said += [] if figure is None else [f"{name} {with_unit(f'{figure:.3g}', unit)}"]
+    for name in ("thickness", "depth"):
+        ends = _known(own and own[1] for own in (getattr(p, f"{name}_bounds") for p in pairs))
+        said += [f"{name} {with_unit(f'{max(ends):.3g}', unit)}"] if ends else []
     said[-1:] = [f"{said[-1]} as placed"] if placed else said[-1:]
     if first.why == "never":
         said.append(f"never in contact in {_poses(report)}, which is no proof")
@@ -168,7 +180,11 @@ def evidence(rule: Rule, report: SuggestionsReport) -> str:
         said.append(f"in contact in {first.contacts:,} of {_poses(report)}")
     names = sorted({pair.asset for pair in pairs if pair.asset is not None})
     said += [f"in {', '.join(names[:_NAMED])}{', ...' if names[_NAMED:] else ''}"] if names else []
-    return ", ".join(said) + ("; the limits add 10 %" if first.why == "contact" else "")
+    margin = "; the limits add 10 %" if first.why == "contact" else ""
+    if milder := rule.milder:
+        need = counted(milder, "pair of these names needs", "pairs of these names need")
+        margin += f" to {' and '.join(rule.worst)}: {need} less"
+    return ", ".join(said) + margin
 
 
 def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> str:
@@ -212,6 +228,14 @@ def remark(suggestions: Suggestions, pairs: Sequence[Suggestion], *, never: bool
     looser = Counter(_left_out(pair) for pair in report.unchecked if pair.reason.startswith(LOOSER))
     for text, count in looser.items():
         said += f"\nNot suggested: {text} ({counted(count, 'asset')})"
+    if loose := [rule for rule in rules_of(suggestions, pairs) if rule.milder]:
+        largest = max(loose, key=lambda rule: max(rule.limits.values()))
+        rules = counted(len(loose), "rule lets", "rules let")
+        said += (
+            f"\n{rules} some pairs overlap more than they do: a rule goes by names, in all assets "
+            f"alike, and the worst sets its limits, as {largest.a} and {largest.b} in "
+            f"{' and '.join(largest.worst)}."
+        )
     if assets := suggestions.without_unit:
         named = ", ".join((*assets[:_NAMED], *(("...",) if assets[_NAMED:] else ())))
         said += (

@@ -231,13 +231,12 @@ bodies = [
 @pytest.mark.parametrize(
     "other",
     [
-        box_on_plate(-4.0),
         box_on_plate(1.0, 'clearance = "2mm"'),
         box_on_plate(-0.05, 'max_depth = "0.1mm"'),
         box_on_plate(-1.0, 'severity = "warning"'),
     ],
 )
-def test_a_rule_that_would_loosen_another_asset_is_not_suggested(
+def test_a_rule_that_would_loosen_rules_of_another_asset_is_not_suggested(
     other: str, tmp_path: Path
 ) -> None:
     (tmp_path / "kit").mkdir()
@@ -259,28 +258,20 @@ def test_a_rule_that_would_loosen_another_asset_is_not_suggested(
     assert satcheck("batch", "kit", "--baseline", "baseline.json", cwd=tmp_path).code == 0
 
 
-def test_pairs_of_the_same_names_are_left_out_in_one_line(tmp_path: Path) -> None:
+def test_of_pairs_of_the_same_names_the_worst_sets_the_limits(tmp_path: Path) -> None:
+    """A touch needs no rule, but a rule cannot leave its asset out."""
     (tmp_path / "kit").mkdir()
-    for name in ("p", "q", "r"):
-        (tmp_path / "kit" / f"{name}.toml").write_text(box_on_plate(-4.0 if name == "r" else -5.0))
-    ran = satcheck("suggest", "kit", cwd=tmp_path)
-    said = "plate and bolt1: a rule goes by names: it would let bodies of these names overlap more"
-    assert ran.out.count(f"# not suggested: {said}") == 1
-    assert ran.err.count(f"Not suggested: {said}") == 1
-    assert "overlap more in kit/r.toml (3 assets)\n" in ran.err
-    assert "Not decided" not in ran.err
-
-
-def test_a_touch_of_the_same_names_in_another_asset_stays_without_a_rule(tmp_path: Path) -> None:
-    """Its legs only touch the top, and a rule cannot leave the asset out."""
-    (tmp_path / "kit").mkdir()
-    table(tmp_path / "kit", 0.002)
-    table(tmp_path / "kit", 0.0, "stool.glb")
-    ran = satcheck("suggest", "kit", cwd=tmp_path)
-    assert ran.code == 3
-    assert tomllib.loads(ran.out)["rules"] == []
-    assert "No pair is suggested." in ran.err
-    assert "overlap more in kit/stool.glb (1 asset)\n" in ran.err
+    for name, height in (("p", -5.0), ("q", -4.0), ("r", 0.0)):
+        (tmp_path / "kit" / f"{name}.toml").write_text(box_on_plate(height))
+    ran = satcheck("suggest", "kit", "-o", "rules.toml", cwd=tmp_path)
+    assert ran.code == 0
+    (rule,) = tomllib.loads((tmp_path / "rules.toml").read_text())["rules"]
+    assert (rule["max_thickness"], rule["max_depth"]) == (5.5, 5.5)
+    assert "in kit/p.toml, kit/q.toml; the limits add 10 % to kit/p.toml: " in rule["reason"]
+    assert "2 pairs of these names need less" in rule["reason"]
+    assert "1 rule lets some pairs overlap more than they do" in ran.err
+    assert "as plate and bolt1 in kit/p.toml.\n" in ran.err
+    assert satcheck("batch", "kit", "--rules", "rules.toml", cwd=tmp_path).code == 0
 
 
 def kit_of_two(folder: Path) -> None:
