@@ -1,17 +1,21 @@
-"""What a finding says, as meshes beside those of the bodies: arrows, rods, points, and balls."""
+"""What a finding says, as meshes beside those of the bodies: arrows, rods, points, and balls; and
+the rim of the hole that leaves a pair undecided."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from satcheck import core
 from satcheck.cli.formats.picture.geometry import joined
 from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Cone, Cylinder, Sphere
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy.typing as npt
 
     from satcheck.report.report import Finding
@@ -23,6 +27,7 @@ SEGMENTS = 32
 # Of the radius of both bodies, unless the arrow is short.
 _SHAFT, _HEAD = 0.012, 0.12
 _DOT = 0.02
+_BY_HOLES = ("relation", "inside")
 
 
 def arrow(start: Floats, way: Floats, radius: float) -> Mesh:
@@ -83,3 +88,43 @@ def _towards(z: Floats) -> Floats:
     x = np.cross(least, z)
     x /= np.linalg.norm(x)
     return np.stack([x, np.cross(z, x), z], axis=1)
+
+
+class Rim(NamedTuple):
+    """lines: closed, each repeats its start, (n, 3). which: `hole 2 of 3`, or `the hole`."""
+
+    body: str
+    which: str
+    diameter: float
+    lines: list[Floats]
+
+    @property
+    def centre(self) -> Floats:
+        points = np.concatenate(self.lines)
+        middle: Floats = (points.min(axis=0) + points.max(axis=0)) / 2
+        return middle
+
+    @property
+    def normal(self) -> Floats:
+        """Of the largest area that the rim goes around, of any length."""
+        turns: Floats = sum(
+            (np.cross(line[:-1] - line[0], line[1:] - line[0]).sum(axis=0) for line in self.lines),
+            np.zeros(3),
+        )
+        return turns
+
+
+def deciding_rim(
+    finding: Finding, pair: list[Body], surface: Callable[[Body], core.Surface]
+) -> Rim | None:
+    """None: no hole decides how the bodies relate. pair: as placed. surface: of one as placed."""
+    if finding.undecided not in _BY_HOLES or not any(body.file.health.holes for body in pair):
+        return None
+    hole = core.mesh_relation(*map(surface, pair)).hole
+    if hole is None:
+        return None
+    body = pair[0 if hole.of_a else 1]
+    which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
+    points = np.asarray(body.world_mesh().vertices)
+    loops = surface(body).rims()[hole.number]
+    return Rim(body.id, which, hole.diameter, [points[[*loop, loop[0]]] for loop in loops])

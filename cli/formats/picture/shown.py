@@ -18,8 +18,7 @@ from satcheck.audit.words import (
     short_names,
     with_unit,
 )
-from satcheck.cli.formats.picture.marks import sphere_around
-from satcheck.cli.formats.picture.rims import deciding_rim
+from satcheck.cli.formats.picture.marks import deciding_rim, sphere_around
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, Viewpoints
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.bodies import IDENTITY
@@ -31,7 +30,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from satcheck.cli.formats.picture.moments import Moments
-    from satcheck.cli.formats.picture.rims import Rim
+    from satcheck.cli.formats.picture.marks import Rim
     from satcheck.core import Mesh
     from satcheck.report.report import Finding, Report
     from satcheck.scene import Body, Scene
