@@ -18,7 +18,7 @@ from satcheck.audit.words import (
     short_names,
     with_unit,
 )
-from satcheck.cli.formats.picture.marks import deciding_rim, sphere_around
+from satcheck.cli.formats.picture.marks import deciding_rim, dot, sphere_around
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, Viewpoints
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.bodies import IDENTITY
@@ -29,9 +29,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from satcheck.cli.formats.picture.moments import Moments
     from satcheck.cli.formats.picture.marks import Rim
-    from satcheck.core import Mesh
+    from satcheck.cli.formats.picture.moments import Moments
     from satcheck.report.report import Finding, Report
     from satcheck.scene import Body, Scene
 
@@ -39,13 +38,12 @@ if TYPE_CHECKING:
     Kind = Literal["a", "b", "arrow", "gap", "ball", "hit", "hole"]
 
 MOST_POINTS = 20_000  # of the lines of a pair
-# A body is named at a point of its surface that is no farther from the middle than this share of
-# the radius; of so many of its points at most.
-_WITHIN, _POINTS = 0.7, 4000
+# A body is named where its surface is nearest to a point so far from the middle, of the radius.
+_WITHIN = 0.7
 
 
 class Label(NamedTuple):
-    """at: in the world; of a body, "a" or "b", a corner of its mesh in coordinates of its file."""
+    """at: in the world; of a body, "a" or "b", a point of its mesh in coordinates of its file."""
 
     text: str
     at: Floats
@@ -162,14 +160,26 @@ class Shows:
     def _names(self, pair: list[Body], view: Viewpoint, *, closely: bool) -> list[Label]:
         names = short_names(*(body.id for body in pair))
         centres = [sphere_around([body])[0] for body in pair]
-        rows = view.rows(self._up)
-        away = (rows @ (centres[0] - centres[1]))[:2]
-        away = away if away.any() else np.array([0.0, 1.0])
+        across = view.rows(self._up)[:2]
+        away = across @ (centres[0] - centres[1])
+        away = (away if away.any() else np.array([0.0, 1.0])) @ across
+        away *= _WITHIN * view.radius / np.linalg.norm(away)
         kinds: tuple[Kind, Kind] = ("a", "b")
         return [
-            Label(name, _anchor(body, view, rows, sign * away, closely=closely), kind)
+            Label(name, self._anchor(body, view.target + sign * away, closely=closely), kind)
             for name, body, sign, kind in zip(names, pair, (1.0, -1.0), kinds, strict=True)
         ]
+
+    def _anchor(self, body: Body, near: Floats, *, closely: bool) -> Floats:
+        """A point of the mesh, away from the other body; in coordinates of the file."""
+        if not closely:
+            first: Floats = np.asarray(body.file.mesh.vertices)[0]
+            return first
+        spot = core.Surface(dot(near, 1e-3 * sphere_around([body])[1]), True)
+        point = np.append(core.mesh_distance(spot, self._surface(body)).witness_b, 1.0)
+        matrix = np.array(body.transform or IDENTITY).reshape(4, 4)
+        placed: Floats = np.linalg.solve(matrix, point)[:3]
+        return placed
 
     def _figures(self, finding: Finding, marks: Marks, towards: Floats) -> list[Label]:
         unit, labels = self._unit, []
@@ -263,37 +273,3 @@ def _shared(pair: list[Body]) -> Floats:
     boxes = np.array([body.world_mesh().bounds for body in pair])
     middle: Floats = (boxes[:, 0].max(axis=0) + boxes[:, 1].min(axis=0)) / 2
     return middle
-
-
-def _anchor(body: Body, view: Viewpoint, rows: Floats, away: Floats, *, closely: bool) -> Floats:
-    """A corner of the mesh within the picture, away from the other body; in coordinates of the
-    file."""
-    mesh, world = body.file.mesh, body.world_mesh()
-    own = np.asarray(mesh.vertices)
-    if not closely:
-        first: Floats = own[0]
-        return first
-    every = slice(None, None, max(1, len(own) // _POINTS))
-    own, seen = own[every], (np.asarray(world.vertices)[every] - view.target) @ rows.T
-    off = np.abs(seen[:, :2]).max(axis=1)
-    inside = np.flatnonzero(off <= _WITHIN * view.radius)
-    if not len(inside):
-        return _beside(mesh, (np.asarray(world.vertices) - view.target) @ rows.T)
-    best: Floats = own[inside[int((seen[inside, :2] @ away).argmax())]]
-    return best
-
-
-def _beside(mesh: Mesh, seen: Floats) -> Floats:
-    """A point of a large body near the middle of the picture. seen: its vertices from there."""
-    corners = seen[np.asarray(mesh.triangles)]
-    a, ab, ac = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    normal = np.cross(ab, ac)
-    size = np.maximum((normal**2).sum(axis=1), np.finfo(float).tiny)
-    second = -(np.cross(a, ac) * normal).sum(axis=1) / size
-    third = -(np.cross(ab, a) * normal).sum(axis=1) / size
-    weights = np.clip(np.stack([1.0 - second - third, second, third], axis=1), 0.0, 1.0)
-    weights /= weights.sum(axis=1, keepdims=True)
-    points = (weights[:, :, None] * corners).sum(axis=1)
-    best = int(np.linalg.norm(points, axis=1).argmin())
-    point: Floats = weights[best] @ np.asarray(mesh.vertices)[np.asarray(mesh.triangles)[best]]
-    return point
