@@ -11,11 +11,10 @@ import click
 from msgspec import Struct
 
 from satcheck.audit import Report
-from satcheck.audit.messages import of_command
 from satcheck.audit.words import counted, with_titles
 from satcheck.cli.format_option import Target
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.summary import FACETED, MESHES, counts_line, next_step
+from satcheck.cli.formats.summary import FACETED, MESHES, closing
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.output import Document, Page, harmless, issue_line, talk
 from satcheck.report.json import document as json_document
@@ -69,8 +68,9 @@ def rendered(
         return pieces({"satcheck": result}, form)
     from satcheck.cli.formats.table import render as render_table
 
-    shown = in_one_line_each(with_titles(result))
-    return render_table(shown, page, explain=to.explain, timings=to.timings, top=to.top)
+    return render_table(
+        with_titles(result), page, explain=to.explain, timings=to.timings, top=to.top
+    )
 
 
 def deliver(document: Document, result: Report | SamplesReport, scene: Scene, to: Delivery) -> None:
@@ -95,39 +95,20 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
             talk(files)
         return
     if isinstance(result, SamplesReport):
-        from satcheck.cli.formats.samples import samples_counts, samples_verdict
+        from satcheck.cli.formats.samples import closing as closing_of_poses
 
-        counts, summary = samples_counts(result), samples_verdict(result)
+        counts, *others = closing_of_poses(result, written=True)
     else:
-        result = in_one_line_each(with_titles(result))
-        counts = counts_line(result)
-        summary = " ".join([of_command(result), *next_step(result, written=True)])
+        result = with_titles(result)
+        counts, *others = closing(result, written=True)
     warnings = [i for i in result.issues if i.severity == "warning" or i.code == FACETED]
     warnings.sort(key=lambda issue: issue.code in MESHES)  # the least grave
     for issue in warnings[:WARNINGS]:
         talk(f"satcheck: {issue_line(issue)}")
     if len(warnings) > WARNINGS:
         talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
-    talk(counts)
-    talk(f"{summary} {files}")
-
-
-def in_one_line_each(report: Report) -> Report:
-    """The report with texts that a terminal can show."""
-    names = (f"{body.id}{body.name}{body.file}{body.path or ''}" for body in report.bodies)
-    if all(map(str.isprintable, names)):
-        return report
-    from msgspec import convert, to_builtins
-
-    return convert(_shown(to_builtins(report)), type(report))
-
-
-def _shown(value: Any) -> Any:
-    if isinstance(value, str):
-        return harmless(value)
-    if isinstance(value, dict):
-        return {key: _shown(member) for key, member in value.items()}
-    return [_shown(member) for member in value] if isinstance(value, list | tuple) else value
+    talk(harmless(counts))
+    talk(harmless(" ".join([*others, files])))
 
 
 def files_line(report: Report | SamplesReport, scene: Scene, to: Delivery) -> str:

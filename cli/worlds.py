@@ -93,13 +93,15 @@ def check_worlds(
             raise click.ClickException(f"{error}: {_ELSEWHERE} [{error.code}]") from None
         if results is not None and not to.quiet:
             talk(_summary(tally, seen, results))
-        if seen is not None:
-            return seen.exit_code(exit_zero=to.exit_zero)
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
         if terms.baseline is not None:
             file = Path(terms.baseline)
             issues += about_gone_assets(read_baseline(file), file)
+        if seen is not None:
+            for issue in () if to.quiet else issues:
+                talk(f"satcheck: {issue_line(issue)}")
+            return seen.exit_code(exit_zero=to.exit_zero)
         read: AbstractContextManager[StoredResults | NewResults]
         new = NewResults(Path(path), tally.done)
         read = StoredResults([Path(path)]) if stays else nullcontext(new)

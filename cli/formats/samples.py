@@ -67,12 +67,18 @@ def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
     said += _remarks(result.samples)
     if result.config is not None:
         said.append(config_line(result.config))
-    said += [samples_counts(result), samples_verdict(result)]
-    if result.summary.verdict == "fail":
+    return joined([*lines, *fitted_each([*said, *closing(result)], page)], page)
+
+
+def closing(result: SamplesReport, *, written: bool = False) -> list[str]:
+    """Return the last lines: what was counted, the verdict, and what to do next. written: the
+    report goes to a file."""
+    lines = [samples_counts(result), samples_verdict(result)]
+    if result.summary.verdict == "fail" and not written:
         shown = "the poses in 3-D" if result.truncated is None else those_listed(result)
         deepest = "" if result.settings.depth else "; --depth finds the deepest of each pair"
-        said.append(f"Next: -o report.html shows {shown}{deepest}.")
-    return joined([*lines, *fitted_each(said, page)], page)
+        lines.append(f"Next: -o report.html shows {shown}{deepest}.")
+    return lines
 
 
 def _poses(samples: Sequence[SampledPose], unit: str | None, page: Page) -> list[str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, field
 
 from satcheck.audit.acceptance import words_to_accept
-from satcheck.audit.messages import failing, is_unsure
+from satcheck.audit.messages import failing, is_unsure, of_command
 from satcheck.audit.words import counted, is_hit, is_unusable, number
 from satcheck.report.report import CROSS_CHECK, OVERLAPS, RELATIONS
 from satcheck.report.verdict import exempt_by
@@ -179,6 +179,12 @@ def summary_line(report: Report) -> str:
     return f"{report.message} {counts_line(report)}"
 
 
+def closing(report: Report, *, written: bool = False) -> list[str]:
+    """Return the last lines: what was counted, the verdict, and what to do next. written: the
+    report goes to a file."""
+    return [counts_line(report), of_command(report), *next_step(report, written=written)]
+
+
 def next_step(report: Report, *, written: bool = False) -> list[str]:
     """`Next: -o report.html shows the overlaps.`; after a pass only what facets may hide. written:
     the report goes to a file."""
@@ -191,8 +197,6 @@ def _after_failure(report: Report, written: bool) -> Iterator[str]:
     overlaps = [f for f in worst if f.at_rest in OVERLAPS]
     if report.settings.accuracy != "exact" and any(f.quality == "estimate" for f in worst):
         yield "--accuracy exact decides what is only possible"
-    elif len(overlaps) > MANY and _may_be_assets(report, len(overlaps)):
-        yield "satcheck batch checks each file by itself, if they are assets of their own"
     elif len(overlaps) > MANY and report.baseline is None:
         yield "satcheck suggest proposes rules for overlaps that are intended"
     elif not written:
@@ -200,14 +204,6 @@ def _after_failure(report: Report, written: bool) -> Iterator[str]:
     within = [f for f in overlaps if f.at_rest in ("contains", "inside")]
     if _depends_on_holes(report, within):
         yield "--allow-open, if the open meshes are meant to be open: they then have no inside"
-
-
-def _may_be_assets(report: Report, overlaps: int) -> bool:
-    """Return whether most files overlap each other, as those of assets do that were never meant to
-    stand side by side."""
-    pairs = report.summary.pairs
-    is_each_a_file = len({body.file for body in report.bodies}) == len(report.bodies)
-    return is_each_a_file and 2 * overlaps > pairs.total - pairs.indeterminate
 
 
 def _open(report: Report) -> Iterator[str]:

@@ -27,7 +27,7 @@ from satcheck.audit.words import (
 )
 from satcheck.cli.formats.details import component_lines, region_lines, support_lines
 from satcheck.cli.formats.remarks import remarks
-from satcheck.cli.formats.summary import config_line, counts_line, next_step
+from satcheck.cli.formats.summary import closing, config_line
 from satcheck.cli.formats.tables import (
     BOLD_MAGENTA,
     BOLD_RED,
@@ -97,8 +97,7 @@ def render(
         lines += fitted(remark.text, page, remark.style)
     if report.config is not None:
         lines += fitted(config_line(report.config), page)
-    lines += fitted_each([counts_line(report), of_command(report), *next_step(report)], page)
-    return joined(lines, page)
+    return joined([*lines, *fitted_each(closing(report), page)], page)
 
 
 def _of_usable_bodies(report: Report) -> list[Finding]:

@@ -108,8 +108,9 @@ def table(columns: Sequence[Column], page: Page, styles: Sequence[str] | None = 
 def fitted(text: str, page: Page, style: str = "") -> list[str]:
     """Return the text as lines of the page. All but the first are indented: no name in it can pass
     for a line of our own."""
-    lines = text.split("\n")
-    if (style and page.colour) or any(cell_len(line) > page.width for line in lines):
+    text = harmless(text)
+    lines = [text]
+    if (style and page.colour) or cell_len(text) > page.width:
         narrow = page._replace(width=max(page.width - INDENT, 1))
         lines = _drawn(Text(text, style), narrow)
     return [lines[0], *(f"{' ' * INDENT}{line}" for line in lines[1:])]
@@ -140,7 +141,7 @@ def aligned(rows: Iterable[Sequence[str]], page: Page, *, bold: bool = True) -> 
     """Return indented rows without a head. bold: the first cell of each."""
     grid = Table.grid(padding=(0, GAP, 0, 0))
     for cells in rows:
-        first, *others = cells
+        first, *others = map(harmless, cells)
         grid.add_row(Text(first, BOLD if bold else ""), *map(Text, others))
     lines = _drawn(grid, page._replace(width=max(page.width - INDENT, 1)))
     return [f"{' ' * INDENT}{line}" for line in lines]
