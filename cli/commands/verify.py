@@ -14,10 +14,10 @@ from satcheck.cli.format_option import deliver, form_option, plain_call
 from satcheck.cli.output import harmless, talk
 from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
-from satcheck.report.verification import CheckedSupport, Outcome
+from satcheck.report.verification import Outcome
 from satcheck.scene.opening import read_whole
 from satcheck.scene.words import listed
-from satcheck.verify import Checked, Rejected, VerificationReport, is_certified, parse, verify
+from satcheck.verify import Rejected, VerificationReport, is_certified, parse, verify
 
 # The figures that a certificate may prove, in the words of the last line.
 _FIGURES = {"depth": ("depth",), "thickness": ("thickness",) * 2, "mtv": ("way out", "ways out")}
@@ -86,10 +86,10 @@ def _missing(result: VerificationReport, root: Path) -> str:
 def _table(result: VerificationReport) -> str:
     """Return what was not accepted, line by line, and a sentence about all."""
     unsaid = ("accepted", "no file")  # a line on stderr speaks of all files
-    lines = [_line(finding) for finding in result.findings if finding.outcome not in unsaid]
-    lines += [
-        _support_line(answer) for answer in result.support or () if answer.outcome != "accepted"
-    ]
+    told = [finding for finding in result.findings if finding.outcome not in unsaid]
+    open_answers = [answer for answer in result.support or () if answer.outcome != "accepted"]
+    lines = [f"{f.outcome}: {f.a} and {f.b}, {f.relation}: {f.reason}" for f in told]
+    lines += [f"{a.outcome}: {a.body}, {a.question}: {a.answer}: {a.reason}" for a in open_answers]
     lines += [f"rejected: {fault}" for fault in result.faults]
     lines += [f"not certified: {what}" for what in result.not_certified]
     lines.append(_summary(result))
@@ -110,15 +110,6 @@ def _not_covered(result: VerificationReport) -> Iterator[str]:
         if names:
             named = (f"{name} ({count:,})" if count else name for name, count in names.items())
             yield f"{title}: {', '.join(named)}."
-
-
-def _line(finding: Checked) -> str:
-    return f"{finding.outcome}: {finding.a} and {finding.b}, {finding.relation}: {finding.reason}"
-
-
-def _support_line(answer: CheckedSupport) -> str:
-    said = f"{answer.body}, {answer.question}: {answer.answer}"
-    return f"{answer.outcome}: {said}: {answer.reason}"
 
 
 def _summary(result: VerificationReport) -> str:

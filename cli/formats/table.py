@@ -25,7 +25,12 @@ from satcheck.audit.words import (
     without_root,
     worst_first,
 )
-from satcheck.cli.formats.details import component_lines, region_lines, support_lines
+from satcheck.cli.formats.details import (
+    component_lines,
+    explanation,
+    region_lines,
+    support_lines,
+)
 from satcheck.cli.formats.remarks import remarks
 from satcheck.cli.formats.summary import closing, config_line
 from satcheck.cli.formats.tables import (
@@ -90,8 +95,6 @@ def render(
     lines += support_lines(report, page)
     lines += region_lines(report, page)
     if explain:
-        from satcheck.cli.formats.explain import explanation
-
         lines += explanation(page, report, shown, timings=timings)
     for remark in remarks(report, shown):
         lines += fitted(remark.text, page, remark.style)

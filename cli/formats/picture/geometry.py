@@ -7,6 +7,7 @@ findings are whole. The others become coarser until the geometry fits, and boxes
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -117,24 +118,20 @@ def joined(meshes: Iterable[Mesh]) -> Mesh:
 
 
 class _Meshes:
-    """Packed, each once."""
+    """Packed, each once. add: returns the number and the frame of a mesh. hull: the same of its
+    hull, whose box is that of the mesh; None where it has no volume."""
 
     def __init__(self) -> None:
         self.packed: list[dict[str, str]] = []
         self._by_text: dict[tuple[str, ...], int] = {}
-        self._by_mesh: dict[tuple[str, int], Drawn | None] = {}
+        self.add, self.hull = cache(self._add), cache(self._hull)
 
-    def add(self, mesh: Mesh) -> Drawn:
-        drawn = self._once("mesh", mesh, mesh)
-        assert drawn is not None
-        return drawn
+    def _add(self, mesh: Mesh) -> Drawn:
+        return Drawn(self._number(packed_mesh(mesh)), frame_of(mesh))
 
-    def hull(self, mesh: Mesh) -> Drawn | None:
-        """None where it has no volume. Its box is that of the mesh."""
-        if ("hull", id(mesh)) in self._by_mesh:
-            return self._by_mesh["hull", id(mesh)]
+    def _hull(self, mesh: Mesh) -> Drawn | None:
         hull = mesh.convex_hull()
-        return self._once("hull", mesh, hull.to_mesh() if hull.dimension == 3 else None)
+        return self._add(hull.to_mesh()) if hull.dimension == 3 else None
 
     def box(self) -> int:
         return self._number(packed_mesh(cube()))
@@ -150,13 +147,6 @@ class _Meshes:
                 words = "" if grid is None else f"cells of 1/{grid} of their size"
                 return {k: added[id(mesh)] for k, mesh in meshes.items()}, words
         return {}, AS_BOXES
-
-    def _once(self, kind: str, key: Mesh, mesh: Mesh | None) -> Drawn | None:
-        name = kind, id(key)
-        if name not in self._by_mesh:
-            drawn = None if mesh is None else Drawn(self._number(packed_mesh(mesh)), frame_of(mesh))
-            self._by_mesh[name] = drawn
-        return self._by_mesh[name]
 
     def _number(self, content: dict[str, str]) -> int:
         number = self._by_text.setdefault(tuple(content.values()), len(self.packed))

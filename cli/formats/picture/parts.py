@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache, partial
 from typing import TYPE_CHECKING
 
 from satcheck.cli.formats.picture.data import listed
@@ -20,19 +21,17 @@ def parts_of(report: Report, scene: Scene) -> Parts:
     """Split as the settings of the report say. A body that cannot be split has no parts."""
     met = {id_ for finding in listed(report) for id_ in (finding.a, finding.b)}
     bodies = [body for body in scene.bodies if body.id in met]
-    store = user_cache()
-    split: dict[int, tuple[Polytope, ...]] = {}
+    once = cache(partial(_parts, settings=report.settings, store=user_cache()))
+    split: dict[str, tuple[Polytope, ...]] = {}
     with Bar("bodies", "splitting") as bar:
         for number, body in enumerate(bodies, 1):
-            mesh = body.file.mesh
-            if id(mesh) not in split:
-                split[id(mesh)] = _parts(mesh, report.settings, store)
+            split[body.id] = once(body.file.mesh)
             if bar is not None:
                 bar(number, len(bodies))
-    return {body.id: parts for body in bodies if (parts := split[id(body.file.mesh)])}
+    return {id_: parts for id_, parts in split.items() if parts}
 
 
-def _parts(mesh: Mesh, settings: StatedSettings, cache: Cache | None) -> tuple[Polytope, ...]:
+def _parts(mesh: Mesh, settings: StatedSettings, store: Cache | None) -> tuple[Polytope, ...]:
     try:
         return decompose(
             mesh,
@@ -40,7 +39,7 @@ def _parts(mesh: Mesh, settings: StatedSettings, cache: Cache | None) -> tuple[P
             seed=settings.part_seed,
             seconds=settings.part_seconds,
             megabytes=settings.part_megabytes,
-            cache=cache,
+            cache=store,
         ).parts
     except DecompositionError:
         return ()

@@ -4,6 +4,7 @@ side from which neither another body nor one of the pair hides the place."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import cache
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -71,7 +72,7 @@ class Viewpoints:
 
     def __init__(self, up: str) -> None:
         self._up, self._directions = up, directions(up)
-        self._coarse: dict[int, tuple[Mesh, Mesh]] = {}
+        self._coarse = cache(_coarser)
 
     def of_pair(
         self,
@@ -141,13 +142,13 @@ class Viewpoints:
 
     def _corners(self, body: Body) -> Floats:
         """Of the triangles, in the world, (n, 3, 3)."""
-        mesh = body.file.mesh
-        if id(mesh) not in self._coarse:
-            is_fine = mesh.triangle_count > _MOST_TRIANGLES
-            self._coarse[id(mesh)] = (mesh, simplified(mesh, _CELLS) if is_fine else mesh)
-        coarse = self._coarse[id(mesh)][1]
+        coarse = self._coarse(body.file.mesh)
         placed = coarse if body.transform is None else coarse.transformed(body.transform)
         return np.asarray(placed.vertices)[np.asarray(placed.triangles)]
+
+
+def _coarser(mesh: Mesh) -> Mesh:
+    return simplified(mesh, _CELLS) if mesh.triangle_count > _MOST_TRIANGLES else mesh
 
 
 def _around(pair: Sequence[Body], points: Sequence[Floats]) -> tuple[Floats, float]:
