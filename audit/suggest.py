@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 MARGIN = 1.1
 # What is asked of a check that measures every overlap.
 MEASURED = {"depth": True, "thickness": True, "list_pruned": False}
-LOOSER = "a rule goes by names: it would let them overlap more than the rules"
+LOOSER = "a rule goes by names: it would loosen"
 NO_FIGURE = "they overlap, and neither their thickness nor their depth has a proven upper end"
 
 
@@ -148,7 +148,7 @@ def suggestions_of(
     looser = _looser(suggested, reports)
     for each in suggested:
         if other := looser.get(frozenset((each.a, each.b))):
-            reason = f"{LOOSER} of {other}"
+            reason = f"{LOOSER} {other}, which has rules of its own"
             unchecked.append(Unchecked(each.a, each.b, False, None, reason, each.asset))
             undecided[f"{each.asset}: {each.a} and {each.b}"] = reason
     suggested = [each for each in suggested if frozenset((each.a, each.b)) not in looser]
@@ -172,8 +172,8 @@ def suggestions_of(
 def _looser(
     suggested: Iterable[Suggestion], reports: Mapping[str | None, Report]
 ) -> dict[frozenset[str], str]:
-    """Return the names whose rule would loosen the rules of another asset, with that asset. What no
-    rule is about may be loosened: the suggestion says so."""
+    """Return the names whose rule would loosen an asset that has rules of its own, with that asset.
+    Others may be loosened: the suggestion says so."""
     named: dict[frozenset[str], dict[str | None, Suggestion]] = {}
     for each in suggested:
         named.setdefault(frozenset((each.a, each.b)), {})[each.asset] = each
