@@ -119,6 +119,13 @@ def paths(metavar: str) -> Callable[[_Command], _Command]:
     return click.argument("paths", nargs=-1, metavar=metavar, shell_complete=_complete_paths)
 
 
+reports = click.argument(
+    "reports",
+    metavar="REPORT ...",
+    nargs=-1,
+    required=True,
+    type=click.Path(dir_okay=False, path_type=Path),
+)
 pair = click.option(
     "--pair",
     "bodies",

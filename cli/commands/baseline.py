@@ -21,8 +21,8 @@ from satcheck.audit.baseline import (
 )
 from satcheck.audit.batch.stored import ENDINGS, StoredResults
 from satcheck.audit.words import counted
+from satcheck.cli import option
 from satcheck.cli.click_classes import HELP_NAMES, Group
-from satcheck.cli.option import together
 from satcheck.cli.output import Document, issue_line, talk, write_file
 from satcheck.cli.stated_scene import read_stored
 from satcheck.core.errors import SatcheckError
@@ -33,16 +33,9 @@ from satcheck.report.samples import SamplesReport
 from satcheck.scene.opening import exists
 
 file_argument = click.argument("file", metavar="BASELINE", type=click.Path(path_type=Path))
-reports_argument = click.argument(
-    "reports",
-    metavar="REPORT ...",
-    nargs=-1,
-    required=True,
-    type=click.Path(dir_okay=False, path_type=Path),
-)
-acceptance = together(
+acceptance = option.together(
     file_argument,
-    reports_argument,
+    option.reports,
     click.option("--reason", default="", metavar="TEXT", help="Why these findings are accepted."),
     click.option(
         "--without-figures",
@@ -99,7 +92,7 @@ def update(file: Path, reports: Sequence[Path], reason: str, **accepting: bool) 
     short_help="Remove findings that pass now, or whose asset is gone.",
 )
 @file_argument
-@reports_argument
+@option.reports
 def prune(file: Path, reports: Sequence[Path]) -> None:
     """Remove findings of pairs that the reports checked again, and that pass now; and those of
     assets that are gone, and in no report."""

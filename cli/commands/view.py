@@ -50,13 +50,7 @@ _FORMATS = {
 
 
 @click.command("view", cls=Command, context_settings=HELP_NAMES)
-@click.argument(
-    "reports",
-    metavar="REPORT ...",
-    nargs=-1,
-    required=True,
-    type=click.Path(dir_okay=False, path_type=Path),
-)
+@option.reports
 @format_option(ALL, "as the file of -o ends, otherwise a page in the browser", also=_FORMATS)
 @option.outputs(
     "Write to FILE, in the format that its name ends with; - is standard output. Repeatable."

@@ -197,6 +197,8 @@ def _after_failure(report: Report, written: bool) -> Iterator[str]:
     overlaps = [f for f in worst if f.at_rest in OVERLAPS]
     if report.settings.accuracy != "exact" and any(f.quality == "estimate" for f in worst):
         yield "--accuracy exact decides what is only possible"
+    elif len(overlaps) > MANY and _may_be_assets(report, len(overlaps)):
+        yield "satcheck batch checks each file by itself, if they are assets of their own"
     elif len(overlaps) > MANY and report.baseline is None:
         yield "satcheck suggest proposes rules for overlaps that are intended"
     elif not written:
@@ -204,6 +206,14 @@ def _after_failure(report: Report, written: bool) -> Iterator[str]:
     within = [f for f in overlaps if f.at_rest in ("contains", "inside")]
     if _depends_on_holes(report, within):
         yield "--allow-open, if the open meshes are meant to be open: they then have no inside"
+
+
+def _may_be_assets(report: Report, overlaps: int) -> bool:
+    """Return whether most files overlap each other, as those of assets do that were never meant to
+    stand side by side."""
+    pairs = report.summary.pairs
+    is_each_a_file = len({body.file for body in report.bodies}) == len(report.bodies)
+    return is_each_a_file and 2 * overlaps > pairs.total - pairs.indeterminate
 
 
 def _open(report: Report) -> Iterator[str]:
