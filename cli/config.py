@@ -204,13 +204,11 @@ def nearest_config() -> ConfigFile | None:
         folder = Path.cwd()
     except OSError:  # the folder is gone, and what it was in is unknown
         return None
-    for path in (place / name for place in (folder, *folder.parents) for name in (CONFIG, PROJECT)):
-        # A link that leads nowhere counts: its options are not passed over, reading it fails.
-        if path.is_file() or path.is_symlink():
-            file = read_config(Path(os.path.relpath(path)), found=True)
-            if file is not None:
-                return file
-    return None
+    paths = (place / name for place in (folder, *folder.parents) for name in (CONFIG, PROJECT))
+    # A link that leads nowhere counts: its options are not passed over, reading it fails.
+    there = (path for path in paths if path.is_file() or path.is_symlink())
+    files = (read_config(Path(os.path.relpath(path)), found=True) for path in there)
+    return next(filter(None, files), None)
 
 
 def read_config(path: Path, *, found: bool = False) -> ConfigFile | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from satcheck.audit.bodies import UNUSED_RULE
 from satcheck.audit.words import (
@@ -19,7 +19,7 @@ from satcheck.audit.words import (
     with_unit,
 )
 from satcheck.cli.formats.summary import MESHES
-from satcheck.cli.formats.tables import YELLOW
+from satcheck.cli.formats.tables import YELLOW, fitted, fitted_each
 from satcheck.cli.output import issue_line
 from satcheck.report.report import (
     CROSS_CHECK,
@@ -32,6 +32,7 @@ from satcheck.report.report import (
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
+    from satcheck.cli.output import Page
     from satcheck.report.report import BodyReport, Finding, Report
 
 _ISSUE_STYLES = {"warning": YELLOW, "note": ""}
@@ -42,14 +43,7 @@ MOST = 10
 ALIKE = 3
 
 
-class Remark(NamedTuple):
-    """One line, and its style (`cli/formats/tables.py`)."""
-
-    text: str
-    style: str = ""
-
-
-def remarks(report: Report, shown: Sequence[Finding]) -> list[Remark]:
+def remarks(report: Report, shown: Sequence[Finding], page: Page) -> list[str]:
     """One line for pairs of which the same is to be said, one a body, one for meshes that are not
     in order and decide nothing."""
     pairs: dict[str, list[str]] = {}
@@ -63,7 +57,7 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Remark]:
     if (more := len(lines) - MOST) > 0:
         lines[MOST:] = [f"{counted(more, 'more remark')} on pairs: JSON has all"]
     lines += [*_curved(report), *_no_opinion(report), *_of_bodies(report)]
-    return [*map(Remark, lines), *_issues(report, shown)]
+    return [*fitted_each(lines, page), *_issues(report, shown, page)]
 
 
 def _of_pair(finding: Finding, report: Report) -> Iterator[str]:
@@ -166,7 +160,7 @@ def _body(body: BodyReport, pairs: int, swept: int) -> list[str]:
     return [f"{body.id} has holes: {moving} past them, and they may be filled"]
 
 
-def _issues(report: Report, shown: Sequence[Finding]) -> Iterator[Remark]:
+def _issues(report: Report, shown: Sequence[Finding], page: Page) -> Iterator[str]:
     """The first issues of a kind, and how many more there are; in one line the meshes that no
     listed pair depends on."""
     ids = {id_ for finding in shown for id_ in (finding.a, finding.b)}
@@ -188,15 +182,15 @@ def _issues(report: Report, shown: Sequence[Finding]) -> Iterator[Remark]:
         if is_mesh and not in_rows:
             idle[issue.code] += 1
         elif told[kind] <= ALIKE:
-            yield Remark(issue_line(issue), _ISSUE_STYLES[issue.severity])
+            yield from fitted(issue_line(issue), page, _ISSUE_STYLES[issue.severity])
         else:
             more[issue.code] += 1
     if more:
-        yield Remark(f"{_counts(more)} more: JSON has all")
+        yield from fitted(f"{_counts(more)} more: JSON has all", page)
     if idle:
-        yield Remark(f"{_counts(idle)}; none mattered")
+        yield from fitted(f"{_counts(idle)}; none mattered", page)
     if unused:
-        yield Remark(f"{counted(unused, 'suggested rule')} about no pair of bodies here")
+        yield from fitted(f"{counted(unused, 'suggested rule')} about no pair of bodies here", page)
 
 
 def _counts(codes: Counter[str]) -> str:

@@ -96,8 +96,7 @@ def render(
     lines += region_lines(report, page)
     if explain:
         lines += explanation(page, report, shown, timings=timings)
-    for remark in remarks(report, shown):
-        lines += fitted(remark.text, page, remark.style)
+    lines += remarks(report, shown, page)
     if report.config is not None:
         lines += fitted(config_line(report.config), page)
     return joined([*lines, *fitted_each(closing(report), page)], page)
