@@ -102,51 +102,44 @@ void PlaneCells::add_trace(int surface, const Corners& c, const std::array<int, 
   if (from != PlaneGraph::kNone && to != PlaneGraph::kNone) graph_.add_segment(from, to, surface, {0, -1, -1});
 }
 
-// A half-edge at which the patch ends on the right starts on each part of the graph that has one. The other parts lie
-// in one cell of the patch, or outside.
+// The triangles of the patch share area, so its cells are neighbours of neighbours of any one.
 void PlaneCells::find_windings() {
-  sides_.resize(graph_.outline_count());
-  std::vector<bool> started(graph_.node_count(), false);  // by part
-  for (std::uint32_t h = 0; h < graph_.half_edge_count(); ++h) {
-    const PlaneChanges c = graph_.changes(h);
-    if (c[0].cover >= 0 && c[1].cover >= 0) continue;
-    started[graph_.part(graph_.start(h))] = true;
-    if (!sides_[graph_.outline(h)].known) start_at(h);
-  }
-  for (std::uint32_t h = 0; h < graph_.half_edge_count(); ++h) {
-    if (started[graph_.part(graph_.start(h))]) continue;
-    started[graph_.part(graph_.start(h))] = true;
-    start_at(h);
-  }
+  sides_.resize(graph_.face_count());
+  const auto patch_ends = [&](std::uint32_t h) {  // on the right
+    const PlaneChanges changes = graph_.changes(h);
+    return changes[0].cover < 0 || changes[1].cover < 0;
+  };
+  std::uint32_t h = 0;
+  while (!patch_ends(h)) ++h;
+  start_left_of(h);
+  spread(graph_.face(h));
+  for (; h < graph_.half_edge_count(); ++h) decided_ = decided_ && (!patch_ends(h) || sides_[graph_.face(h)].in_patch());
   for (std::uint32_t k = 0; k < sides_.size(); ++k) {
     if (sides_[k].in_patch()) in_patch_.push_back(k);
   }
 }
 
-void PlaneCells::start_at(std::uint32_t h) {
-  Sides& sides = sides_[graph_.outline(h)];
+void PlaneCells::start_left_of(std::uint32_t h) {
+  Sides& sides = sides_[graph_.face(h)];
   sides.known = true;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const auto p = graph_.inside_left_of(h, corners_, attempt);
-    if (!p) return;  // no triangle of the patch is there
+    const ExactPoint p = *graph_.inside_left_of(h, corners_, attempt);
     sides.at = {};
     spend(budget_, kHoldsWork * members_.size());
-    for (const PatchTriangle& member : members_) sides.at[member.surface].cover += holds(corners_of(member), *p) ? 1 : 0;
-    if (!sides.in_patch()) return;
-    sides.decided = true;
+    for (const PatchTriangle& member : members_) sides.at[member.surface].cover += holds(corners_of(member), p) ? 1 : 0;
+    decided_ = true;
     for (std::size_t s = 0; s < surfaces_.size(); ++s) {
       const auto& [a, b, c] = first_corners_;
-      const auto beside = winding_beside(surfaces_[s]->mesh, surfaces_[s]->bvh, *p, a, b, c, {}, budget_);
-      sides.decided = sides.decided && beside;
+      const auto beside = winding_beside(surfaces_[s]->mesh, surfaces_[s]->bvh, p, a, b, c, {}, budget_);
+      decided_ = decided_ && beside;
       if (beside) sides.at[s].front = beside->front, sides.at[s].back = beside->back;
     }
-    if (sides.decided) break;
+    if (decided_) return;
   }
-  spread(graph_.outline(h));
 }
 
-void PlaneCells::spread(std::uint32_t outline) {
-  std::vector<std::uint32_t> stack{outline};
+void PlaneCells::spread(std::uint32_t cell) {
+  std::vector<std::uint32_t> stack{cell};
   while (!stack.empty()) {
     const std::uint32_t here = stack.back();
     stack.pop_back();
@@ -154,26 +147,25 @@ void PlaneCells::spread(std::uint32_t outline) {
       Sides beyond = sides_[here];
       const PlaneChanges changes = graph_.changes(h);
       for (int s = 0; s < 2; ++s) beyond.at[s] += changes[s];
-      Sides& there = sides_[graph_.outline(h ^ 1)];
+      Sides& there = sides_[graph_.face(h ^ 1)];
       if (!there.known) {
         there = beyond;
-        if (beyond.in_patch()) stack.push_back(graph_.outline(h ^ 1));
+        if (beyond.in_patch()) stack.push_back(graph_.face(h ^ 1));
       } else if (beyond.in_patch() && beyond.at != there.at) {
-        consistent_ = false;
+        decided_ = false;
       }
     });
   }
 }
 
-std::optional<Beside> PlaneCells::beside(std::uint32_t outline, int surface) const {
-  const Sides& sides = sides_[outline];
-  if (!consistent_ || !sides.decided) return std::nullopt;
-  const PlaneChange& at = sides.at[surface];
+std::optional<Beside> PlaneCells::beside(std::uint32_t cell, int surface) const {
+  if (!decided_) return std::nullopt;
+  const PlaneChange& at = sides_[cell].at[surface];
   return Beside{at.front, at.back, at.cover > 0};
 }
 
-ExactPoint PlaneCells::inside(std::uint32_t outline) const {
-  return *graph_.inside_left_of(graph_.first(outline), corners_, 0);
+ExactPoint PlaneCells::inside(std::uint32_t cell) const {
+  return *graph_.inside_left_of(graph_.first(cell), corners_, 0);
 }
 
 // p is on no side of the triangle.
@@ -191,56 +183,49 @@ std::array<std::uint32_t, 2> PlaneCells::triangles_at(const ExactPoint& p) const
   return at;
 }
 
-// Parts of the graph that do not meet the sides of the triangle are completely inside it, or not at all.
-std::vector<std::uint32_t> PlaneCells::outlines_in(PatchTriangle member) const {
-  spend(budget_, kListedWork * (members_.size() + in_patch_.size() + graph_.half_edge_count()));
+std::vector<std::uint32_t> PlaneCells::cells_in(PatchTriangle member) const {
+  spend(budget_, kListedWork * (members_.size() + graph_.half_edge_count()));
   const std::size_t number = std::find(members_.begin(), members_.end(), member) - members_.begin();
   std::array<std::uint32_t, 3> at{corners_[3 * number], corners_[3 * number + 1], corners_[3 * number + 2]};
   if (graph_.side(at[0], at[1], graph_.node(at[2])) < 0) std::swap(at[1], at[2]);
-  std::vector<bool> is_side(graph_.half_edge_count() / 2, false), visited(graph_.outline_count(), false);
+  std::vector<bool> is_side(graph_.half_edge_count() / 2, false), visited(graph_.face_count(), false);
   std::vector<std::uint32_t> stack, inside;
-  const auto push = [&](std::uint32_t outline) {
-    if (!visited[outline]) stack.push_back(outline);
-    visited[outline] = true;
+  const auto push = [&](std::uint32_t h) {
+    if (!visited[graph_.face(h)]) stack.push_back(graph_.face(h));
+    visited[graph_.face(h)] = true;
   };
   for (int i = 0; i < 3; ++i) {
     for (const std::uint32_t h : graph_.along(at[i], at[(i + 1) % 3])) {
       is_side[h / 2] = true;
-      push(graph_.outline(h));
+      push(h);
     }
   }
   while (!stack.empty()) {
     inside.push_back(stack.back());
     stack.pop_back();
     graph_.visit(inside.back(), [&](std::uint32_t h) {
-      if (!is_side[h / 2]) push(graph_.outline(h ^ 1));
+      if (!is_side[h / 2]) push(h ^ 1);
     });
-  }
-  const std::uint32_t part = graph_.part(graph_.start(graph_.first(inside[0])));
-  for (const std::uint32_t k : in_patch_) {
-    const std::uint32_t node = graph_.start(graph_.first(k));
-    const auto on_left = [&](int i) { return graph_.side(at[i], at[(i + 1) % 3], graph_.node(node)) > 0; };
-    if (graph_.part(node) != part && on_left(0) && on_left(1) && on_left(2)) inside.push_back(k);
   }
   return inside;
 }
 
-std::vector<std::uint32_t> PlaneCells::nodes_of(std::uint32_t outline) const {
+std::vector<std::uint32_t> PlaneCells::nodes_of(std::uint32_t cell) const {
   std::vector<std::uint32_t> nodes;
-  graph_.visit(outline, [&](std::uint32_t h) { nodes.push_back(graph_.start(h)); });
+  graph_.visit(cell, [&](std::uint32_t h) { nodes.push_back(graph_.start(h)); });
   return nodes;
 }
 
-std::vector<std::uint32_t> PlaneCells::outlines_at(const LazyPoint& x) const {
+std::vector<std::uint32_t> PlaneCells::cells_at(const LazyPoint& x) const {
   spend(budget_, kListedWork * graph_.half_edge_count());
-  std::vector<std::uint32_t> outlines;
+  std::vector<std::uint32_t> cells;
   for (std::uint32_t h = 0; h < graph_.half_edge_count(); ++h) {
     const LazyPoint& node = graph_.node(graph_.start(h));
-    if (!meet(point_box(node), point_box(x)) || !sides_[graph_.outline(h)].in_patch()) continue;
+    if (!meet(point_box(node), point_box(x)) || !sides_[graph_.face(h)].in_patch()) continue;
     const auto same = [&](int axis) { return compare_along(node, x, axis, budget_) == 0; };
-    if (same(0) && same(1) && same(2)) outlines.push_back(graph_.outline(h));
+    if (same(0) && same(1) && same(2)) cells.push_back(graph_.face(h));
   }
-  return outlines;
+  return cells;
 }
 
 }  // namespace satcheck

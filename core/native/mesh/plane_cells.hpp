@@ -2,7 +2,7 @@
 //
 // Just in front of the plane, the winding number of a surface changes only where one of its triangles leaves the plane
 // to the front; the direction in which the triangle runs along this segment gives the sign. Behind the plane likewise.
-// So one ray for each connected part of the planar graph gives the winding numbers of all cells around it.
+// So one ray gives the winding numbers of all cells of the patch.
 #pragma once
 
 #include <array>
@@ -35,26 +35,25 @@ class PlaneCells {
 
   const std::vector<PatchTriangle>& members() const { return members_; }
 
-  // The outlines of the cells in the patch. A cell has one for each connected part of its boundary.
-  const std::vector<std::uint32_t>& outlines() const { return in_patch_; }
-  // The same for one triangle of the patch.
-  std::vector<std::uint32_t> outlines_in(PatchTriangle member) const;
+  // The cells in the patch, by number; and those in one triangle of the patch.
+  const std::vector<std::uint32_t>& cells() const { return in_patch_; }
+  std::vector<std::uint32_t> cells_in(PatchTriangle member) const;
   // The winding numbers beside the cell; empty if no ray decides them. The front is that of the first triangle.
-  std::optional<Beside> beside(std::uint32_t outline, int surface) const;
+  std::optional<Beside> beside(std::uint32_t cell, int surface) const;
   // A point inside the cell; and for each surface a triangle of the patch that contains it, or PlaneGraph::kNone.
-  ExactPoint inside(std::uint32_t outline) const;
+  ExactPoint inside(std::uint32_t cell) const;
   std::array<std::uint32_t, 2> triangles_at(const ExactPoint& p) const;
 
   const LazyPoint& node(std::uint32_t number) const { return graph_.node(number); }
-  std::vector<std::uint32_t> nodes_of(std::uint32_t outline) const;
-  // The outlines in the patch that pass through the node at x; empty if there is no node.
-  std::vector<std::uint32_t> outlines_at(const LazyPoint& x) const;
+  std::vector<std::uint32_t> nodes_of(std::uint32_t cell) const;
+  // The cells in the patch that have a corner at x.
+  std::vector<std::uint32_t> cells_at(const LazyPoint& x) const;
 
  private:
   // coplanar: it may share area with another member.
   enum class Seen : std::uint8_t { coplanar, done };
   struct Sides {
-    bool known = false, decided = true;
+    bool known = false;
     PlaneChanges at{};  // beside the cell
     bool in_patch() const { return at[0].cover > 0 || at[1].cover > 0; }
   };
@@ -66,8 +65,8 @@ class PlaneCells {
   void add_sides(PatchTriangle coplanar, bool is_member);
   void add_trace(int surface, const Corners& c, const std::array<int, 3>& side);
   void find_windings();
-  void start_at(std::uint32_t h);
-  void spread(std::uint32_t outline);
+  void start_left_of(std::uint32_t h);
+  void spread(std::uint32_t cell);
   bool holds(const Corners& triangle, const ExactPoint& p) const;
 
   std::vector<const Surface*> surfaces_;
@@ -79,9 +78,9 @@ class PlaneCells {
   std::vector<PatchTriangle> members_;
   std::vector<std::uint32_t> corners_;  // nodes: three of each member
   std::unordered_map<std::uint64_t, Seen> seen_;
-  std::vector<Sides> sides_;  // of each outline
+  std::vector<Sides> sides_;  // of each face of the graph
   std::vector<std::uint32_t> in_patch_;
-  bool consistent_ = true;
+  bool decided_ = true;
 };
 
 }  // namespace satcheck

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "base/patches.hpp"
 #include "exact/point_in_triangle.hpp"
 #include "mesh/winding.hpp"
 
@@ -12,8 +11,8 @@ namespace satcheck {
 namespace {
 
 // Measured steps of two segments that may meet, of a crossing with all that follows from it, of a stop with its share of
-// the sort, and of a half-edge.
-constexpr std::uint64_t kPairWork = 20, kCrossingWork = 3000, kStopWork = 150, kHalfEdgeWork = 150;
+// the sort, of a half-edge, and of a half-edge that may pass a point.
+constexpr std::uint64_t kPairWork = 20, kCrossingWork = 3000, kStopWork = 150, kHalfEdgeWork = 150, kPassWork = 10;
 
 // Below this a rounded fraction may have lost digits.
 constexpr double kSmallestFraction = 1e-200;
@@ -29,6 +28,7 @@ void PlaneGraph::build() {
   for (Segment& s : segments_) sort_stops(s);
   cut_segments();
   trace();
+  find_faces();
 }
 
 // Names of one point stay different nodes, as in the other planes that have them.
@@ -37,6 +37,7 @@ void PlaneGraph::build_named() {
   same_.clear();
   cut_segments();
   trace();
+  find_faces();
 }
 
 std::uint32_t PlaneGraph::add_node(const LazyPoint& p) {
@@ -260,6 +261,76 @@ void PlaneGraph::trace() {
     for (std::uint32_t g = h; outline_[g] == kNone; g = next_[g]) outline_[g] = static_cast<std::uint32_t>(first_.size());
     first_.push_back(h);
   }
+}
+
+void PlaneGraph::find_faces() {
+  DisjointSets sets(first_.size());
+  const auto in_first_part = [&](std::uint32_t h) { return part_[start(h)] == part_[start(0)]; };
+  if (!std::all_of(first_.begin(), first_.end(), in_first_part)) join_outlines(sets);
+  std::vector<std::uint32_t> number(first_.size());
+  for (std::uint32_t k = 0; k < first_.size(); ++k) {
+    const std::uint32_t set = sets.find(k);
+    if (set == k) {
+      number[k] = face_count();
+      outlines_.emplace_back();
+    }
+    face_.push_back(number[set]);
+    outlines_[number[set]].push_back(k);
+  }
+}
+
+// The outline around a part of the graph has the face outside of that part on its left. It passes the first node of the
+// part along the plane's first axis, then its second one, and leaves it by the last half-edge, counter-clockwise: those
+// that leave this node lie within half a turn.
+void PlaneGraph::join_outlines(DisjointSets& sets) const {
+  const auto [i, j] = plane_axes(axis_);
+  const auto is_before = [&](std::uint32_t p, std::uint32_t q) {
+    const int along = compare(p, q, i);
+    return along != 0 ? along < 0 : compare(p, q, j) < 0;
+  };
+  std::vector<std::uint32_t> last(nodes_.size(), kNone);  // by part: the half-edge with the outside on its left
+  for (std::uint32_t h = 0; h < half_edge_count(); ++h) {
+    const std::uint32_t at = start(h);
+    std::uint32_t& known = last[part_[at]];
+    if (known == kNone || (at == start(known) ? side(at, far_end(known), nodes_[far_end(h)]) > 0 : is_before(at, start(known)))) known = h;
+  }
+  std::uint32_t outside = kNone;
+  for (const std::uint32_t h : last) {
+    if (h == kNone) continue;
+    const std::uint32_t around = outline_around(nodes_[start(h)], part_[start(h)]);
+    if (around == kNone && outside == kNone) outside = outline_[h];
+    sets.unite(outline_[h], around == kNone ? outside : around);
+  }
+}
+
+// How many times an outline turns counter-clockwise around a point that is not on it: a ray along the first axis of the
+// plane meets the half-edges that rise past the point and those that fall, each of which contains its lower end only.
+int PlaneGraph::winding(std::uint32_t outline, const LazyPoint& p) const {
+  const int axis = plane_axes(axis_).j;
+  int winding = 0;
+  std::uint64_t count = 0;
+  visit_outline(outline, [&](std::uint32_t h) {
+    ++count;
+    const bool from_below = compare_along(nodes_[start(h)], p, axis, budget_) <= 0;
+    const bool to_below = compare_along(nodes_[end(h)], p, axis, budget_) <= 0;
+    if (from_below == to_below) return;
+    const bool on_left = turn_ * side(start(h), end(h), p) > 0;
+    if (on_left == from_below) winding += from_below ? turn_ : -turn_;
+  });
+  spend(budget_, kPassWork * count);
+  return winding;
+}
+
+// The innermost outline that has the point on its left, of the parts of the graph other than one; kNone if there is none.
+// Of each part one at most has it. Outlines of different parts do not meet, so one of two contains the other.
+std::uint32_t PlaneGraph::outline_around(const LazyPoint& p, std::uint32_t other_than) const {
+  std::uint32_t innermost = kNone;
+  for (std::uint32_t k = 0; k < first_.size(); ++k) {
+    const std::uint32_t node = start(first_[k]);
+    if (part_[node] == other_than || winding(k, p) <= 0) continue;
+    if (innermost == kNone || winding(innermost, nodes_[node]) > 0) innermost = k;
+  }
+  return innermost;
 }
 
 // Counter-clockwise around the node that all of them leave.

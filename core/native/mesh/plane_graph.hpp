@@ -1,9 +1,9 @@
-// A planar graph of segments in one plane, traced by its half-edges.
+// A planar graph of segments in one plane, its half-edges and the faces between them.
 //
 // Method: Mark de Berg, Otfried Cheong, Marc van Kreveld, Mark Overmars, "Computational Geometry" (3rd ed. 2008),
 // chapter 2. Where we deviate: nodes have names, a vertex, an edge of a mesh that meets the plane, or two segments that
 // cross. Names of one point follow each other on a segment, where they become one node; no coordinates are compared
-// with a tolerance.
+// with a tolerance. A part of the graph that is not connected with the rest lies in the innermost outline around it.
 #pragma once
 
 #include <array>
@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/patches.hpp"
 #include "exact/exact_point.hpp"
 #include "exact/ratio.hpp"
 #include "exact/triangle_pair.hpp"
@@ -61,28 +62,27 @@ class PlaneGraph {
   int turn() const { return turn_; }
   const LazyPoint& node(std::uint32_t number) const { return nodes_[number]; }
   std::size_t node_count() const { return nodes_.size(); }
-  // The connected part of the graph that a node belongs to: a node of it.
-  std::uint32_t part(std::uint32_t node) const { return part_[node]; }
   // +1: left of the way from p to q.
   int side(std::uint32_t p, std::uint32_t q, const LazyPoint& of) const {
     return turn_ * orientation_2d_at(nodes_[p], nodes_[q], of, axis_, budget_);
   }
 
-  // Half-edge 2 k runs along edge k, 2 k + 1 back. An outline: what is on the left of half-edges that follow each other.
+  // Half-edge 2 k runs along edge k, 2 k + 1 back. Each has a face on its left.
   std::uint32_t half_edge_count() const { return static_cast<std::uint32_t>(next_.size()); }
   std::uint32_t start(std::uint32_t h) const { return h % 2 ? edges_[h / 2].high : edges_[h / 2].low; }
   std::uint32_t end(std::uint32_t h) const { return start(h ^ 1); }
-  std::uint32_t outline(std::uint32_t h) const { return outline_[h]; }
-  std::uint32_t outline_count() const { return static_cast<std::uint32_t>(first_.size()); }
-  std::uint32_t first(std::uint32_t outline) const { return first_[outline]; }
+  // The first of the segments that run along it, by the order in which they were added.
+  std::uint32_t segment(std::uint32_t h) const { return edges_[h / 2].segment; }
+  std::uint32_t face(std::uint32_t h) const { return face_[outline_[h]]; }
+  std::uint32_t face_count() const { return static_cast<std::uint32_t>(outlines_.size()); }
+  // The face that contains a point, which is on no segment and not outside of all.
+  std::uint32_t face_at(const LazyPoint& p) const { return face_[outline_around(p, kNone)]; }
   PlaneChanges changes(std::uint32_t h) const;
+  // Any half-edge of a face, and all of them, one outline after another.
+  std::uint32_t first(std::uint32_t face) const { return first_[outlines_[face][0]]; }
   template <class Visit>
-  void visit(std::uint32_t outline, Visit visit) const {
-    std::uint32_t h = first_[outline];
-    do {
-      visit(h);
-      h = next_[h];
-    } while (h != first_[outline]);
+  void visit(std::uint32_t face, Visit visit) const {
+    for (const std::uint32_t outline : outlines_[face]) visit_outline(outline, visit);
   }
   // The half-edges along a segment, in order.
   std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to) const;
@@ -115,6 +115,18 @@ class PlaneGraph {
   void sort_stops(Segment& s);
   void merge_edges();
   void trace();
+  void find_faces();
+  void join_outlines(DisjointSets& sets) const;
+  template <class Visit>
+  void visit_outline(std::uint32_t outline, Visit visit) const {
+    std::uint32_t h = first_[outline];
+    do {
+      visit(h);
+      h = next_[h];
+    } while (h != first_[outline]);
+  }
+  int winding(std::uint32_t outline, const LazyPoint& p) const;
+  std::uint32_t outline_around(const LazyPoint& p, std::uint32_t other_than) const;
   void sort_around(std::vector<std::uint32_t>& half_edges) const;
   std::uint32_t far_end(std::uint32_t h) const;
   Ratio clear_way(const LazyPoint& from, const LazyPoint& to) const;
@@ -128,10 +140,12 @@ class PlaneGraph {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> segment_of_;
   std::vector<Segment> segments_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> same_;  // names of one point
-  std::vector<std::uint32_t> part_;
+  std::vector<std::uint32_t> part_;  // of each node: a node of its connected part
   std::vector<Edge> edges_;
-  std::vector<std::uint32_t> next_, outline_;  // of each half-edge
-  std::vector<std::uint32_t> first_;           // of each outline: a half-edge
+  // An outline: what is on the left of half-edges that follow each other.
+  std::vector<std::uint32_t> next_, outline_;         // of each half-edge
+  std::vector<std::uint32_t> first_, face_;           // of each outline: a half-edge, and the face
+  std::vector<std::vector<std::uint32_t>> outlines_;  // of each face
 };
 
 }  // namespace satcheck

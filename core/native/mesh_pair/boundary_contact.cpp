@@ -41,8 +41,8 @@ class Boundary {
       if (is_plain(t)) return true;
       if (!has_irregular_partners(surface_, t, budget_)) continue;
       const PlaneCells& cells = cells_of(t, a);
-      for (const std::uint32_t outline : cells.outlines_at(x)) {
-        const auto sides = cells.beside(outline, 1);
+      for (const std::uint32_t cell : cells.cells_at(x)) {
+        const auto sides = cells.beside(cell, 1);
         if (sides && sides->is_boundary()) return true;
         decided = decided && sides;
       }
@@ -100,11 +100,11 @@ void find_any_contact(const Surface& a, const Surface& b, const std::vector<Cont
       if (member.surface == 0) done.insert(member.triangle);
     }
     std::set<std::uint32_t> tried;
-    for (const std::uint32_t outline : cells.outlines()) {
-      const auto sides = cells.beside(outline, 0);
+    for (const std::uint32_t cell : cells.cells()) {
+      const auto sides = cells.beside(cell, 0);
       if (!sides) samples.fail();
       if (!sides || !sides->is_boundary()) continue;
-      for (const std::uint32_t node : cells.nodes_of(outline)) {
+      for (const std::uint32_t node : cells.nodes_of(cell)) {
         if (!tried.insert(node).second) continue;
         const auto contains = of_b.contains(cells.node(node), a);
         if (!contains) samples.fail();

@@ -24,7 +24,7 @@ bool holds_beside_all(const Surface& solid, Holds holds) {
     return all_hold;
   };
   const auto patch = [&](const PlaneCells& cells) {
-    for (const std::uint32_t outline : cells.outlines()) note(cells.beside(outline, 0));
+    for (const std::uint32_t cell : cells.cells()) note(cells.beside(cell, 0));
     return all_hold;
   };
   visit_uniform_parts({&solid}, all, plain, patch);

@@ -122,9 +122,9 @@ class Samples {
   template <class Partner>
   void note_cells(const Side& side, const PlaneCells& cells, Partner partner) {
     bool sheets[2] = {true, true}, solids[2] = {true, true};  // whether all cells of a surface are of this kind
-    for (const std::uint32_t outline : cells.outlines()) {
+    for (const std::uint32_t cell : cells.cells()) {
       if (settled()) return;
-      const auto mine = cells.beside(outline, 0), theirs = cells.beside(outline, 1);
+      const auto mine = cells.beside(cell, 0), theirs = cells.beside(cell, 1);
       for (int s = 0; s < 2; ++s) {
         const auto& beside = s == 0 ? mine : theirs;
         if (beside && !beside->on_surface) continue;
@@ -136,7 +136,7 @@ class Samples {
         continue;
       }
       note_beside(side, *mine, *theirs, [&] {
-        const ExactPoint p = cells.inside(outline);
+        const ExactPoint p = cells.inside(cell);
         auto [t, u] = cells.triangles_at(p);
         if (t == kNoTriangle) t = partner(PatchTriangle{1, u});
         if (u == kNoTriangle) u = partner(PatchTriangle{0, t});

@@ -111,7 +111,7 @@ class Overlap {
       const std::uint32_t f = s / 2;
       const auto [at, is_new] = found.try_emplace(component_[s]);
       OverlapComponent& component = at->second;
-      if (const auto p = is_new ? cells_.sample(f) : std::nullopt) component.point = p->rounded;
+      if (is_new) component.point = cells_.sample(f).rounded;
       for (const Vec3 corner : cells_.face_corners(f)) {
         component.bounds.include(corner);
         component.corners.push_back(corner);

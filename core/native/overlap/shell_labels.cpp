@@ -13,8 +13,7 @@ struct Hit {
   std::uint32_t near_side, far_side;
 };
 
-// Adds the hits of one surface on the segment from p to `far`. False: the segment meets an edge, or a face is not
-// decided.
+// Adds the hits of one surface on the segment from p to `far`. False: the segment meets an edge.
 bool add_hits(const SpaceCells& cells, int mesh, const ExactPoint& p, Vec3 far, std::vector<Hit>& hits) {
   const Surface& surface = cells.surface(mesh);
   Aabb path = point_box(p);
@@ -25,10 +24,9 @@ bool add_hits(const SpaceCells& cells, int mesh, const ExactPoint& p, Vec3 far, 
     const auto crossing = segment_crossing(p, far, c[0], c[1], c[2], cells.budget());
     if (!crossing || *crossing == 0) return crossing.has_value();
     Ratio at = zero_between(orientation_value(c[0], c[1], c[2], p), orientation_value(c[0], c[1], c[2], far) * p.w);
-    const auto face = cells.face_at(mesh, t, between(p, end, at.denominator - at.numerator, at.numerator));
-    if (!face) return false;
+    const std::uint32_t face = cells.face_at(mesh, t, between(p, end, at.denominator - at.numerator, at.numerator));
     const bool to_front = *crossing > 0;
-    hits.push_back({std::move(at), 2 * *face + (to_front ? 1 : 0), 2 * *face + (to_front ? 0 : 1)});
+    hits.push_back({std::move(at), 2 * face + (to_front ? 1 : 0), 2 * face + (to_front ? 0 : 1)});
     return true;
   }, cells.budget());
 }
@@ -46,8 +44,7 @@ ShellLabels::ShellLabels(SpaceCells& cells) : cells_(cells) {
       const Corners c = corners(cells.surface(face.mesh).mesh, face.triangle);
       if (!meet(triangle_box(cells.surface(face.mesh).mesh, face.triangle), box_of(1 - face.mesh))) continue;
       if (is_cut) {
-        const auto p = cells.sample(f);
-        complete_ = p && note(f, *p) && complete_;
+        complete_ = note(f, cells.sample(f)) && complete_;
       } else {
         complete_ = note(f, lazy_centroid(c)) && complete_;
       }
@@ -79,16 +76,15 @@ std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> sides_on_way
                                                                                  std::uint32_t side) {
   const CellFace& face = cells.faces()[side / 2];
   const Corners c = corners(cells.surface(face.mesh).mesh, face.triangle);
-  const auto p = cells.sample(side / 2);
-  if (!p) return std::nullopt;
+  const ExactPoint p = cells.sample(side / 2);
   Aabb bounds = cells.surface(0).bvh.nodes[0].box;
   bounds.include(cells.surface(1).bvh.nodes[0].box);
-  const Heading first = nearest_wall(bounds, p->rounded);
+  const Heading first = nearest_wall(bounds, p.rounded);
   for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
-    const Vec3 far = outside_point(bounds, p->rounded, first, attempt);
+    const Vec3 far = outside_point(bounds, p.rounded, first, attempt);
     if (orientation(c[0], c[1], c[2], far) != (side % 2 == 0 ? 1 : -1)) continue;
     std::vector<Hit> hits;
-    if (!add_hits(cells, 0, *p, far, hits) || !add_hits(cells, 1, *p, far, hits)) continue;
+    if (!add_hits(cells, 0, p, far, hits) || !add_hits(cells, 1, p, far, hits)) continue;
     std::stable_sort(hits.begin(), hits.end(), [](const Hit& g, const Hit& h) { return less(g.at, h.at); });
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     const Hit* last = nullptr;

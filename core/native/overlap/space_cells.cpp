@@ -71,8 +71,7 @@ std::uint32_t SpaceCells::cut_triangle(int mesh, std::uint32_t triangle) {
   if (!complete_) return 0;
   cut_[mesh][triangle] = static_cast<std::uint32_t>(cuts_.size());
   const TriangleFaces& faces = cuts_.emplace_back(nodes_, c, sides_of(mesh, triangle), segments_in(mesh, triangle), budget_);
-  complete_ = complete_ && faces.complete();
-  for (std::size_t h = 0; h < faces.half_edge_count(); ++h) {
+  for (std::uint32_t h = 0; h < faces.half_edge_count(); ++h) {
     if (faces.left(h) == TriangleFaces::kOutside) continue;
     const std::uint32_t from = faces.start(h), to = faces.start(h ^ 1);
     const std::uint32_t face = first_face_[mesh][triangle] + faces.left(h);
@@ -163,18 +162,16 @@ bool SpaceCells::bounds_nothing(const CellFace& face) const {
   return collinear(c[0], c[1], c[2]);
 }
 
-std::optional<ExactPoint> SpaceCells::sample(std::uint32_t face) const {
+ExactPoint SpaceCells::sample(std::uint32_t face) const {
   const CellFace& f = faces_[face];
   const Corners c = corners(surface(f.mesh).mesh, f.triangle);
   if (!in_contact(f.mesh, f.triangle)) return weighted_point(c[0], c[1], c[2], 1.0, 1.0, 1.0);
   return cuts_[cut_[f.mesh][f.triangle]].sample(f.within);
 }
 
-std::optional<std::uint32_t> SpaceCells::face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const {
-  const std::uint32_t first = first_face_[mesh][triangle];
-  if (!in_contact(mesh, triangle)) return first;
-  const auto within = cuts_[cut_[mesh][triangle]].face_at(p);
-  return within ? std::optional(first + *within) : std::nullopt;
+std::uint32_t SpaceCells::face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const {
+  const std::uint32_t within = in_contact(mesh, triangle) ? cuts_[cut_[mesh][triangle]].face_at(p) : 0;
+  return first_face_[mesh][triangle] + within;
 }
 
 template <class Visit>
@@ -186,7 +183,7 @@ void SpaceCells::visit_outline(std::uint32_t face, Visit visit) const {
     return;
   }
   const TriangleFaces& cut = cuts_[cut_[f.mesh][f.triangle]];
-  for (std::size_t h = 0; h < cut.half_edge_count(); ++h) {
+  for (std::uint32_t h = 0; h < cut.half_edge_count(); ++h) {
     if (cut.left(h) == f.within) visit(nodes_.at(cut.start(h)).rounded, nodes_.at(cut.start(h ^ 1)).rounded);
   }
 }

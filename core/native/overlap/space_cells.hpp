@@ -7,7 +7,6 @@
 
 #include <array>
 #include <deque>
-#include <optional>
 #include <vector>
 
 #include "base/patches.hpp"
@@ -49,9 +48,9 @@ class SpaceCells {
   bool any_contact() const { return !cuts_.empty(); }
   bool bounds_nothing(const CellFace& face) const;
 
-  // A point inside the face; and the face of a triangle that contains a point. Empty: not decided.
-  std::optional<ExactPoint> sample(std::uint32_t face) const;
-  std::optional<std::uint32_t> face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const;
+  // A point inside the face; and the face of a triangle that contains a point.
+  ExactPoint sample(std::uint32_t face) const;
+  std::uint32_t face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const;
   // The corners of the face and the box around them, rounded; and its area times its unit normal, in coordinates
   // relative to an origin.
   std::vector<Vec3> face_corners(std::uint32_t face) const;
