@@ -1,8 +1,9 @@
 #include "mesh_pair/common_triangles.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <bit>
 
+#include "base/key_sort.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck {
@@ -11,41 +12,37 @@ namespace {
 // Measured steps of a triangle that is looked up.
 constexpr std::uint64_t kTriangleWork = 300;
 
-// The vertices within a box in the order of their coordinates, without points that have several vertices.
-std::vector<std::uint32_t> single_vertices(const Mesh& mesh, const Aabb& box) {
-  std::vector<std::uint32_t> sorted, single;
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (meet(box, {mesh.vertices[v], mesh.vertices[v]})) sorted.push_back(v);
+// A number that triangles with the same corners have in common, whatever their order, and few others.
+std::uint64_t key_of(const Corners& c) {
+  std::uint64_t sum = 0;
+  for (const Vec3& p : c) {
+    std::uint64_t key = 0;
+    for (const double x : {p.x, p.y, p.z, 1.0}) {
+      key = (key ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15;  // + 0.0: one zero
+      key ^= key >> 32;
+    }
+    sum += key;
   }
-  std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t u, std::uint32_t v) {
-    return coordinates_less(mesh.vertices[u], mesh.vertices[v]);
-  });
-  for (std::size_t i = 0, next = 0; i < sorted.size(); i = next) {
-    for (next = i + 1; next < sorted.size() && mesh.vertices[sorted[next]] == mesh.vertices[sorted[i]];) ++next;
-    if (next == i + 1) single.push_back(sorted[i]);
-  }
-  return single;
+  return sum;
 }
 
-struct NamedTriangle {
-  Triangle name;  // its corners as vertices of A, sorted
-  std::uint32_t number;
-};
-
-// The triangles whose corners all have a name, in the order of their names, then numbers.
-std::vector<NamedTriangle> named_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& names, std::uint32_t none) {
-  std::vector<NamedTriangle> named;
+// The triangles within a box that alone have their key, by key.
+std::vector<Keyed> keyed_triangles(const Mesh& mesh, const Aabb& box) {
+  std::vector<Keyed> keyed;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    Triangle name;
-    for (int i = 0; i < 3; ++i) name[i] = names[mesh.triangles[t][i]];
-    std::sort(name.begin(), name.end());
-    if (name[2] != none) named.push_back({name, t});
+    if (meet(box, triangle_box(mesh, t))) keyed.push_back({key_of(corners(mesh, t)), t});
   }
-  std::sort(named.begin(), named.end(), [](const NamedTriangle& t, const NamedTriangle& u) {
-    return t.name != u.name ? t.name < u.name : t.number < u.number;
-  });
-  return named;
+  sort_by_key(keyed);
+  std::size_t count = 0;
+  for (std::size_t i = 0, next = 0; i < keyed.size(); i = next) {
+    for (next = i + 1; next < keyed.size() && keyed[next].key == keyed[i].key;) ++next;
+    if (next == i + 1) keyed[count++] = keyed[i];
+  }
+  keyed.resize(count);
+  return keyed;
 }
+
+bool same_corners(const Corners& t, const Corners& u) { return std::is_permutation(t.begin(), t.end(), u.begin()); }
 
 bool is_collinear(const Corners& c, Budget* budget) { return collinear(c[0], c[1], c[2], budget); }
 
@@ -62,30 +59,18 @@ int shared_edge(const Corners& t, const Corners& other) {
 
 CommonTriangles::CommonTriangles(const Surface& a, const Surface& b, Budget* budget) : a_(a), b_(b), budget_(budget) {
   spend(budget_, kTriangleWork * (a.mesh.triangles.size() + b.mesh.triangles.size()));
-  std::vector<std::uint32_t> names_a(a.mesh.vertices.size(), kNone), names_b(b.mesh.vertices.size(), kNone);
-  {
-    const auto of_a = single_vertices(a.mesh, b.bvh.nodes[0].box), of_b = single_vertices(b.mesh, a.bvh.nodes[0].box);
-    auto v = of_b.begin();
-    for (const std::uint32_t u : of_a) {
-      while (v != of_b.end() && coordinates_less(b.mesh.vertices[*v], a.mesh.vertices[u])) ++v;
-      if (v != of_b.end() && b.mesh.vertices[*v] == a.mesh.vertices[u]) names_a[u] = names_b[*v] = u;
-    }
-  }
   of_a_.assign(a.mesh.triangles.size(), kNone);
   of_b_.assign(b.mesh.triangles.size(), kNone);
-  const auto named_a = named_triangles(a.mesh, names_a, kNone), named_b = named_triangles(b.mesh, names_b, kNone);
-  auto u = named_b.begin();
-  for (auto t = named_a.begin(); t != named_a.end();) {
-    const Triangle& name = t->name;
-    const auto has_name = [&](const NamedTriangle& other) { return other.name == name; };
-    u = std::find_if(u, named_b.end(), [&](const NamedTriangle& other) { return !(other.name < name); });
-    const auto t_end = std::find_if_not(t, named_a.end(), has_name), u_end = std::find_if_not(u, named_b.end(), has_name);
-    if (t_end - t == 1 && u_end - u == 1 && !is_collinear(corners(a.mesh, t->number), budget_)) {
-      of_a_[t->number] = u->number;
-      of_b_[u->number] = t->number;
-      ++count_;
-    }
-    t = t_end, u = u_end;
+  const auto keyed_a = keyed_triangles(a.mesh, b.bvh.nodes[0].box), keyed_b = keyed_triangles(b.mesh, a.bvh.nodes[0].box);
+  auto u = keyed_b.begin();
+  for (const Keyed& t : keyed_a) {
+    while (u != keyed_b.end() && u->key < t.key) ++u;
+    if (u == keyed_b.end() || u->key != t.key) continue;
+    const Corners c = corners(a.mesh, t.number);
+    if (!same_corners(c, corners(b.mesh, u->number)) || is_collinear(c, budget_)) continue;
+    of_a_[t.number] = u->number;
+    of_b_[u->number] = t.number;
+    ++count_;
   }
   across_.assign(3 * of_a_.size(), kNone);
   irregular_.assign(of_a_.size(), false);
