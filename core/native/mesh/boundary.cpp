@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
 #include <limits>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "base/patches.hpp"
+#include "mesh/chains.hpp"
 #include "mesh/mesh_checks.hpp"
 
 namespace satcheck {
@@ -17,65 +16,18 @@ namespace {
 
 constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
 
-// The boundary edges that start at each vertex, taken one by one.
-class BoundaryEdges {
- public:
-  BoundaryEdges(const Mesh& welded, const EdgeTable& edges) {
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const int balance = edges.balance(e);
-      if (balance == 0) continue;
-      const std::uint32_t h = edges.half_edges(e)[0];
-      const Triangle& t = welded.triangles[h / 3];
-      auto [low, high] = std::minmax(t[h % 3], t[(h % 3 + 1) % 3]);
-      for (int k = 0; k < std::abs(balance); ++k) {
-        balance > 0 ? starts_[low].push_back(high) : starts_[high].push_back(low);
-      }
-    }
-    for (auto& [vertex, ends] : starts_) std::sort(ends.begin(), ends.end(), std::greater<>());
-  }
-
-  std::vector<std::uint32_t> starts() const {
-    std::vector<std::uint32_t> result;
-    for (const auto& [vertex, ends] : starts_) result.push_back(vertex);
-    return result;
-  }
-
-  // Takes an edge that starts at this vertex and returns its end.
-  std::optional<std::uint32_t> take(std::uint32_t vertex) {
-    auto& ends = starts_[vertex];
-    if (ends.empty()) return std::nullopt;
-    const std::uint32_t end = ends.back();
-    ends.pop_back();
-    return end;
-  }
-
- private:
-  std::map<std::uint32_t, std::vector<std::uint32_t>> starts_;
-};
-
 }  // namespace
 
-// Walks along the boundary. A vertex that is met again closes a loop, which is removed from the walk.
 std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& edges) {
-  BoundaryEdges left(welded, edges);
-  std::vector<BoundaryLoop> loops;
-  std::map<std::uint32_t, std::size_t> place;  // position of a vertex on the walk
-  for (const std::uint32_t start : left.starts()) {
-    std::vector<std::uint32_t> walk{start};
-    place = {{start, 0}};
-    while (const auto next = left.take(walk.back())) {
-      const auto [met, is_new] = place.try_emplace(*next, walk.size());
-      if (is_new) {
-        walk.push_back(*next);
-        continue;
-      }
-      const auto first = walk.begin() + static_cast<std::ptrdiff_t>(met->second);
-      loops.emplace_back(first, walk.end());
-      for (auto v = first + 1; v != walk.end(); ++v) place.erase(*v);
-      walk.erase(first + 1, walk.end());
-    }
+  std::vector<NodePair> boundary;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const int balance = edges.balance(e);
+    const std::uint32_t h = edges.half_edges(e)[0];
+    const Triangle& t = welded.triangles[h / 3];
+    const auto [low, high] = std::minmax(t[h % 3], t[(h % 3 + 1) % 3]);
+    boundary.insert(boundary.end(), std::abs(balance), balance > 0 ? NodePair{low, high} : NodePair{high, low});
   }
-  return loops;
+  return join_loops(std::move(boundary));
 }
 
 std::vector<Triangle> fan(const BoundaryLoop& loop) {
