@@ -22,4 +22,9 @@ struct MeshView {
   MeshView(const Mesh& mesh) : MeshView(mesh.vertices, mesh.triangles) {}  // implicit: a mesh is accepted as a view
 };
 
+inline std::array<Vec3, 3> corners(const Mesh& mesh, std::uint32_t triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
 }  // namespace satcheck

@@ -91,6 +91,14 @@ struct Aabb {
     min = {low.x < min.x ? low.x : min.x, low.y < min.y ? low.y : min.y, low.z < min.z ? low.z : min.z};
     max = {high.x > max.x ? high.x : max.x, high.y > max.y ? high.y : max.y, high.z > max.z ? high.z : max.z};
   }
+  bool contains(const Aabb& box) const {
+    return min.x <= box.min.x && min.y <= box.min.y && min.z <= box.min.z && box.max.x <= max.x && box.max.y <= max.y &&
+           box.max.z <= max.z;
+  }
+  int widest_axis() const {
+    const Vec3 size = max - min;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  }
 };
 
 // Closed boxes: boxes that share only a face, edge or corner meet.

@@ -23,7 +23,7 @@ constexpr std::uint64_t kTriangleWork = 30, kListedWork = 5;
 class Cavities {
  public:
   Cavities(const Mesh& mesh, const EdgeTable& edges, const Labels& components, Budget* budget)
-      : mesh_(mesh), budget_(budget), of_triangle_(components.of_triangle), members_(components.members()), open_(find_open_sets(components, edges)) {
+      : mesh_(mesh), budget_(budget), components_(components), of_triangle_(components.of_triangle), members_(components.members()), open_(find_open_sets(components, edges)) {
     for (std::size_t c = 0; c < members_.size(); ++c) volumes_.push_back(open_[c] ? 0 : volume(members_[c]));
   }
 
@@ -55,21 +55,10 @@ class Cavities {
       std::vector<std::uint32_t> others = *around;
       std::erase(others, c);
       if (around_of(c) != others) continue;
-      if (volumes_[c] > 0 && crosses_nothing(wall)) return c;
+      if (volumes_[c] > 0 && !crosses_others(mesh_, bvh_, components_, wall, members_[wall], budget_)) return c;
       return std::nullopt;
     }
     return std::nullopt;
-  }
-
-  bool crosses_nothing(std::uint32_t wall) const {
-    const std::vector<std::uint32_t>& triangles = members_[wall];
-    return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
-      const Corners mine = corners(t);
-      return visit_box(bvh_, mesh_, triangle_box(mesh_, t), [&](std::uint32_t u) {
-        spend(budget_, kTriangleWork);
-        return of_triangle_[u] == wall || classify(mine, corners(u), budget_) != TriangleContact::crossing;
-      }, budget_);
-    });
   }
 
   // The closed components around a point of this one.
@@ -81,7 +70,7 @@ class Cavities {
 
   Around find_around(std::uint32_t component) const {
     for (const std::uint32_t t : members_[component]) {
-      const Corners c = corners(t);
+      const Corners c = corners(mesh_, t);
       const LazyPoint point = lazy_centroid(c);
       const auto here = triangles_at(mesh_, bvh_, point, {}, budget_);
       if (!std::all_of(here.begin(), here.end(), [&](std::uint32_t u) { return of_triangle_[u] == component; })) continue;
@@ -97,18 +86,12 @@ class Cavities {
   // The closed components that the segment crosses more often one way than the other. Empty if it meets an edge.
   Around crossed(std::uint32_t besides, const LazyPoint& from, Vec3 far) const {
     std::map<std::uint32_t, int> windings;
-    Aabb path = point_box(from);
-    path.include(far);
-    const bool generic = visit_box(bvh_, mesh_, path, [&](std::uint32_t t) {
-      const std::uint32_t c = of_triangle_[t];
-      if (c == besides || open_[c]) return true;
-      const auto [p, q, r] = corners(t);
+    const auto counts = [&](std::uint32_t t) {
       spend(budget_, kTriangleWork);
-      const auto crossing = segment_crossing(from, far, p, q, r, budget_);
-      if (crossing) windings[c] += *crossing;
-      return crossing.has_value();
-    }, budget_);
-    if (!generic) return std::nullopt;
+      return of_triangle_[t] != besides && !open_[of_triangle_[t]];
+    };
+    const auto add = [&](std::uint32_t t, int crossing) { windings[of_triangle_[t]] += crossing; };
+    if (!visit_crossings(mesh_, bvh_, from, far, counts, add, budget_)) return std::nullopt;
     std::vector<std::uint32_t> around;
     for (const auto& [c, winding] : windings) {
       if (winding != 0) around.push_back(c);
@@ -116,13 +99,9 @@ class Cavities {
     return around;
   }
 
-  Corners corners(std::uint32_t t) const {
-    const Triangle& v = mesh_.triangles[t];
-    return {mesh_.vertices[v[0]], mesh_.vertices[v[1]], mesh_.vertices[v[2]]};
-  }
-
   const Mesh& mesh_;
   Budget* budget_;
+  const Labels& components_;
   const std::vector<std::uint32_t>& of_triangle_;
   std::vector<std::vector<std::uint32_t>> members_;
   std::vector<bool> open_;
@@ -132,6 +111,17 @@ class Cavities {
 };
 
 }  // namespace
+
+bool crosses_others(const Mesh& mesh, const Bvh& bvh, const Labels& sets, std::uint32_t set,
+                    const std::vector<std::uint32_t>& members, Budget* budget) {
+  return std::any_of(members.begin(), members.end(), [&](std::uint32_t t) {
+    const Corners mine = corners(mesh, t);
+    return !visit_box(bvh, mesh, triangle_box(mine), [&](std::uint32_t u) {
+      spend(budget, kTriangleWork);
+      return sets.of_triangle[u] == set || classify(mine, corners(mesh, u), budget) != TriangleContact::crossing;
+    }, budget);
+  });
+}
 
 std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components, Budget* budget) {
   return Cavities(welded, edges, components, budget).solids();

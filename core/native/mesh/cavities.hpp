@@ -7,8 +7,13 @@
 #include "base/edge_table.hpp"
 #include "base/mesh.hpp"
 #include "base/patches.hpp"
+#include "mesh/bvh.hpp"
 
 namespace satcheck {
+
+// Whether a triangle of the set, whose members are given, crosses one of another set.
+bool crosses_others(const Mesh& mesh, const Bvh& bvh, const Labels& sets, std::uint32_t set,
+                    const std::vector<std::uint32_t>& members, Budget* budget);
 
 // For each component the one that it belongs to: the solid whose cavity it bounds, else itself. A wall is closed, faces
 // inward, crosses no component, and lies within an outward one, with no other wall between them. Signs are exact; what

@@ -50,8 +50,7 @@ bool bounds_no_area(const Mesh& mesh, const BoundaryLoop& loop, double width) {
 int widest_axis(const Mesh& mesh, const std::vector<std::uint32_t>& vertices) {
   Aabb box;
   for (const std::uint32_t v : vertices) box.include(mesh.vertices[v]);
-  const Vec3 size = box.max - box.min;
-  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  return box.widest_axis();
 }
 
 std::vector<std::uint32_t> vertices_of(const std::vector<BoundaryLoop>& loops) {

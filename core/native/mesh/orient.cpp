@@ -38,37 +38,18 @@ void flip(Mesh& mesh, Patch& patch) {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-struct Neighbour {
-  std::uint32_t triangle = none;
-  bool same_direction = false;  // the shared edge is run the same way: one of the two must flip
-};
-
-using Neighbours = std::array<Neighbour, 3>;  // across edge 0, 1, 2
-
-// Whether two triangles that are not copies of each other run the edge in the same direction.
-bool is_run_twice_the_same_way(const Mesh& mesh, const EdgeTable& edges, std::size_t edge) {
-  const auto h = edges.half_edges(edge);
+// Whether two triangles that are not copies of each other run their edge in the same direction.
+bool run_the_same_way(const Mesh& mesh, const EdgeTable& edges, std::uint32_t h, std::uint32_t twin) {
   const auto across = [&](std::uint32_t half_edge) { return mesh.triangles[half_edge / 3][(half_edge % 3 + 2) % 3]; };
-  return h.size() == 2 && edges.ascends(h[0]) == edges.ascends(h[1]) && across(h[0]) != across(h[1]);
+  return edges.ascends(h) == edges.ascends(twin) && across(h) != across(twin);
 }
 
 bool has_mixed_winding(const Mesh& mesh, const EdgeTable& edges) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (is_run_twice_the_same_way(mesh, edges, e)) return true;
+    const auto h = edges.half_edges(e);
+    if (h.size() == 2 && run_the_same_way(mesh, edges, h[0], h[1])) return true;
   }
   return false;
-}
-
-std::vector<Neighbours> find_neighbours(const Mesh& mesh, const EdgeTable& edges) {
-  std::vector<Neighbours> neighbours(mesh.triangles.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto h = edges.half_edges(e);
-    if (h.size() != 2) continue;
-    const bool same = is_run_twice_the_same_way(mesh, edges, e);
-    neighbours[h[0] / 3][h[0] % 3] = {h[1] / 3, same};
-    neighbours[h[1] / 3][h[1] % 3] = {h[0] / 3, same};
-  }
-  return neighbours;
 }
 
 // Makes patches with mixed winding consistent, with the winding of the majority. A patch that is not orientable does
@@ -76,7 +57,7 @@ std::vector<Neighbours> find_neighbours(const Mesh& mesh, const EdgeTable& edges
 bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>& patches) {
   if (!has_mixed_winding(mesh, edges)) return false;
   bool repaired = false;
-  const auto neighbours = find_neighbours(mesh, edges);
+  const std::vector<std::uint32_t> twins = edges.twins();
   enum : signed char { kUnseen, kKeep, kFlip };
   std::vector<signed char> state(mesh.triangles.size(), kUnseen);
   for (const Patch& patch : patches) {
@@ -84,15 +65,16 @@ bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>
     std::vector<std::uint32_t> queue{patch.triangles[0]};
     state[queue[0]] = kKeep;
     for (std::size_t i = 0; i < queue.size(); ++i) {
-      for (const Neighbour& n : neighbours[queue[i]]) {
-        if (n.triangle == none) continue;
-        const bool flips = (state[queue[i]] == kFlip) != n.same_direction;
+      for (std::uint32_t h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
+        if (twins[h] == EdgeTable::kNone) continue;
+        const std::uint32_t next = twins[h] / 3;
+        const bool flips = (state[queue[i]] == kFlip) != run_the_same_way(mesh, edges, h, twins[h]);
         const signed char wanted = flips ? kFlip : kKeep;
-        if (state[n.triangle] == kUnseen) {
-          state[n.triangle] = wanted;
-          queue.push_back(n.triangle);
+        if (state[next] == kUnseen) {
+          state[next] = wanted;
+          queue.push_back(next);
         }
-        orientable = orientable && state[n.triangle] == wanted;
+        orientable = orientable && state[next] == wanted;
       }
     }
     std::vector<std::uint32_t> flipped, kept;
@@ -171,13 +153,8 @@ double find_solids(const Mesh& mesh, const EdgeTable& edges, std::vector<Patch>&
   return volume + signed_volume(mesh.vertices, others);
 }
 
-bool within(const Aabb& inner, const Aabb& outer) {
-  return outer.min.x <= inner.min.x && outer.min.y <= inner.min.y && outer.min.z <= inner.min.z &&
-         inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
-}
-
-// Measured steps of the boxes of two patches, and of two triangles.
-constexpr std::uint64_t kBoxWork = 5, kTriangleWork = 30;
+// Measured steps of the boxes of two patches.
+constexpr std::uint64_t kBoxWork = 5;
 
 // How a patch lies to the other ones.
 class Nesting {
@@ -194,13 +171,13 @@ class Nesting {
   bool is_nested(std::uint32_t patch) {
     const bool possible = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& other) {
       spend(budget_, kBoxWork);
-      return &other != &patches_[patch] && other.solid && within(patches_[patch].box, other.solid_box);
+      return &other != &patches_[patch] && other.solid && other.solid_box.contains(patches_[patch].box);
     });
     if (!possible) return false;
     const auto counts = [&](std::uint32_t t) { return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].solid; };
     std::optional<int> winding;
     for (const std::uint32_t t : patches_[patch].triangles) {
-      const Corners c = corners(t);
+      const Corners c = corners(mesh_, t);
       if ((winding = winding_number(mesh_, tree(), lazy_centroid(c), counts, budget_))) break;
     }
     return winding != 0 && !crosses_another(patch);
@@ -217,25 +194,13 @@ class Nesting {
   }
 
   bool crosses_another(std::uint32_t patch) {
-    const auto& triangles = patches_[patch].triangles;
-    return std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
-      const Corners mine = corners(t);
-      return !visit_box(tree(), mesh_, triangle_box(mesh_, t), [&](std::uint32_t u) {
-        spend(budget_, kTriangleWork);
-        return labels_.of_triangle[u] == patch || classify(mine, corners(u), budget_) != TriangleContact::crossing;
-      }, budget_);
-    });
+    return crosses_others(mesh_, tree(), labels_, patch, patches_[patch].triangles, budget_);
   }
 
  private:
   const Bvh& tree() {
     if (bvh_.nodes.empty()) bvh_ = build_bvh(mesh_);
     return bvh_;
-  }
-
-  Corners corners(std::uint32_t t) const {
-    const Triangle& v = mesh_.triangles[t];
-    return {mesh_.vertices[v[0]], mesh_.vertices[v[1]], mesh_.vertices[v[2]]};
   }
 
   const Mesh& mesh_;
@@ -257,10 +222,8 @@ bool has_to_turn(const Mesh& mesh, const std::vector<Patch>& patches, std::uint3
 }
 
 std::vector<Patch> make_patches(const Labels& labels) {
-  std::vector<Patch> patches(labels.count);
-  for (std::uint32_t t = 0; t < labels.of_triangle.size(); ++t) {
-    patches[labels.of_triangle[t]].triangles.push_back(t);
-  }
+  std::vector<Patch> patches;
+  for (auto& members : labels.members()) patches.emplace_back().triangles = std::move(members);
   return patches;
 }
 

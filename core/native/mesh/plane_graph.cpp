@@ -86,8 +86,7 @@ void PlaneGraph::meet_segments() {
     box.include(point_box(nodes_[s.to]));
     all.include(box);
   }
-  const Vec3 size = all.max - all.min;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = all.widest_axis();
   std::vector<std::uint32_t> order(segments_.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {

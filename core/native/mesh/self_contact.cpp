@@ -33,31 +33,6 @@ struct SharedFirst {
   }
 };
 
-// The neighbour across each edge of a triangle, if there is exactly one.
-class Neighbours {
- public:
-  explicit Neighbours(const Mesh& mesh) : across_(mesh.triangles.size() * 3, kNone) {
-    const EdgeTable edges(mesh.vertices.size(), mesh.triangles);
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const auto h = edges.half_edges(e);
-      if (h.size() != 2) continue;
-      across_[h[0]] = h[1] / 3;
-      across_[h[1]] = h[0] / 3;
-    }
-  }
-
-  template <class Visit>
-  void visit(std::uint32_t t, Visit visit) const {
-    for (int i = 0; i < 3; ++i) {
-      if (across_[3 * t + i] != kNone) visit(across_[3 * t + i]);
-    }
-  }
-
- private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  std::vector<std::uint32_t> across_;
-};
-
 }  // namespace
 
 MeshTriangle::MeshTriangle(const Mesh& mesh, std::uint32_t t, Budget* budget)
@@ -129,7 +104,7 @@ void visit_uniform_parts(const std::vector<const Surface*>& surfaces, const std:
                          const std::function<bool(const PlaneCells&)>& patch, Budget* budget) {
   const Surface& surface = *surfaces[0];
   const Mesh& mesh = surface.mesh;
-  const Neighbours neighbours(mesh);
+  const std::vector<std::uint32_t> twins = EdgeTable(mesh.vertices.size(), mesh.triangles).twins();
   std::vector<bool> done(mesh.triangles.size(), false);
   for (std::uint32_t first = 0; first < mesh.triangles.size(); ++first) {
     if (done[first] || !wanted(first) || is_collinear(mesh, first, budget)) continue;
@@ -147,11 +122,13 @@ void visit_uniform_parts(const std::vector<const Surface*>& surfaces, const std:
     while (!queue.empty()) {
       const std::uint32_t t = queue.back();
       queue.pop_back();
-      neighbours.visit(t, [&](std::uint32_t u) {
-        if (done[u] || !wanted(u) || is_collinear(mesh, u, budget) || has_irregular_partners(surface, u, budget)) return;
+      for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const std::uint32_t u = twins[h] / 3;
+        if (twins[h] == EdgeTable::kNone || done[u] || !wanted(u) || is_collinear(mesh, u, budget)) continue;
+        if (has_irregular_partners(surface, u, budget)) continue;
         done[u] = true;
         queue.push_back(u);
-      });
+      }
     }
   }
 }

@@ -1,7 +1,6 @@
 // A mesh with the data for queries, built once and shared between queries and threads.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -74,10 +73,5 @@ Surface refitted_surface(const Surface& like, Mesh mesh);
 
 // Winding number of a point with respect to a solid; empty if the point is on the surface.
 std::optional<int> winding_number(const Surface& surface, Vec3 point, Budget* budget = nullptr);
-
-inline std::array<Vec3, 3> corners(const Mesh& mesh, std::uint32_t triangle) {
-  const Triangle& t = mesh.triangles[triangle];
-  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-}
 
 }  // namespace satcheck

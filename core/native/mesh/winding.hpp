@@ -54,24 +54,27 @@ std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Ve
   return to;
 }
 
-// Signed crossings of the segment p -> far with the triangles that `counts(t)` accepts; nothing when
-// one of them cannot be decided.
-template <class Point, class Counts>
-std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 far,
-                                 Counts counts, Budget* budget) {
+// Calls cross(t, crossing) for the triangles that `counts(t)` accepts and the segment p -> far crosses. False if one of
+// them cannot be decided.
+template <class Point, class Counts, class Cross>
+bool visit_crossings(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 far, Counts counts, Cross cross, Budget* budget) {
   Aabb path = point_box(p);
   path.include(far);
-  int winding = 0;
-  const bool generic = visit_box(bvh, mesh, path, [&](std::uint32_t t) {
+  return visit_box(bvh, mesh, path, [&](std::uint32_t t) {
     if (!counts(t)) return true;
-    const Triangle& v = mesh.triangles[t];
-    const auto crossing =
-        segment_crossing(p, far, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]], budget);
-    winding += crossing.value_or(0);
+    const auto [a, b, c] = corners(mesh, t);
+    const auto crossing = segment_crossing(p, far, a, b, c, budget);
+    if (crossing.value_or(0) != 0) cross(t, *crossing);
     return crossing.has_value();
   }, budget);
-  if (!generic) return std::nullopt;
-  return winding;
+}
+
+// The sum of these crossings; nothing when one of them cannot be decided.
+template <class Point, class Counts>
+std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 far, Counts counts, Budget* budget) {
+  int winding = 0;
+  const auto add = [&](std::uint32_t, int crossing) { winding += crossing; };
+  return visit_crossings(mesh, bvh, p, far, counts, add, budget) ? std::optional(winding) : std::nullopt;
 }
 
 // The triangles that contain p. `known` contains p and is not tested.

@@ -14,12 +14,6 @@ namespace {
 // Measured steps of two triangles in exact arithmetic.
 constexpr std::uint64_t kComparisonWork = 10'000;
 
-Aabb box_of(const Corners& t) {
-  Aabb box;
-  for (const Vec3& p : t) box.include(p);
-  return box;
-}
-
 // Sign of (gap of the boxes along their widest axis - length). The triangles are at least that gap apart.
 int compare_along_axes(const Aabb& a, const Aabb& b, double length) {
   int widest = -1;
@@ -51,7 +45,7 @@ class GapComparison {
  private:
   void include(std::uint32_t t, std::uint32_t u) {
     const Corners of_a = corners(a_.mesh, t), of_b = corners(b_.mesh, u);
-    if (least_ < 0 || compare_along_axes(box_of(of_a), box_of(of_b), length_) >= least_) return;
+    if (least_ < 0 || compare_along_axes(triangle_box(of_a), triangle_box(of_b), length_) >= least_) return;
     budget_.spend(kComparisonWork);
     const std::vector<Vec3> points_a(of_a.begin(), of_a.end()), points_b(of_b.begin(), of_b.end());
     const int sign = compare_distance(ExactDifference(points_a, points_b), length_);

@@ -22,11 +22,6 @@ constexpr std::uint64_t kBoxWork = 5, kFaceWork = 500;
 // Roundings of a corner of a face and of the operations on it.
 constexpr double kVolumeRoundoffs = 16;
 
-bool lies_within(const Aabb& in, const Aabb& out) {
-  return in.min.x >= out.min.x && in.min.y >= out.min.y && in.min.z >= out.min.z && in.max.x <= out.max.x &&
-         in.max.y <= out.max.y && in.max.z <= out.max.z;
-}
-
 class Overlap {
  public:
   explicit Overlap(SpaceCells& cells)
@@ -75,7 +70,7 @@ class Overlap {
     for (const auto& [side, box] : boxes) {
       spend(cells_.budget(), kBoxWork * boxes.size());
       const bool may_be_cave = std::any_of(boxes.begin(), boxes.end(), [&, inner = side, &in = box](const auto& other) {
-        return other.first != inner && lies_within(in, other.second);
+        return other.first != inner && other.second.contains(in);
       });
       if (!may_be_cave) continue;
       const auto pairs = sides_on_way(cells_, side);

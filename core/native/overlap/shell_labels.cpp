@@ -16,18 +16,14 @@ struct Hit {
 // Adds the hits of one surface on the segment from p to `far`. False: the segment meets an edge.
 bool add_hits(const SpaceCells& cells, int mesh, const ExactPoint& p, Vec3 far, std::vector<Hit>& hits) {
   const Surface& surface = cells.surface(mesh);
-  Aabb path = point_box(p);
-  path.include(far);
   const ExactPoint end = make_exact_point(far);
-  return visit_box(surface.bvh, surface.mesh, path, [&](std::uint32_t t) {
+  const auto all = [](std::uint32_t) { return true; };
+  return visit_crossings(surface.mesh, surface.bvh, p, far, all, [&](std::uint32_t t, int crossing) {
     const Corners c = corners(surface.mesh, t);
-    const auto crossing = segment_crossing(p, far, c[0], c[1], c[2], cells.budget());
-    if (!crossing || *crossing == 0) return crossing.has_value();
     Ratio at = zero_between(orientation_value(c[0], c[1], c[2], p), orientation_value(c[0], c[1], c[2], far) * p.w);
     const std::uint32_t face = cells.face_at(mesh, t, between(p, end, at.denominator - at.numerator, at.numerator));
-    const bool to_front = *crossing > 0;
+    const bool to_front = crossing > 0;
     hits.push_back({std::move(at), 2 * face + (to_front ? 1 : 0), 2 * face + (to_front ? 0 : 1)});
-    return true;
   }, cells.budget());
 }
 
