@@ -7,14 +7,6 @@
 
 namespace satcheck {
 
-DyadicVec operator+(const DyadicVec& a, const DyadicVec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-DyadicVec operator-(const DyadicVec& a, const DyadicVec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-DyadicVec operator*(const DyadicVec& a, const Dyadic& s) { return {a.x * s, a.y * s, a.z * s}; }
-Dyadic dot(const DyadicVec& a, const DyadicVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-DyadicVec cross(const DyadicVec& a, const DyadicVec& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 namespace {
 
 Dyadic magnitude(const Dyadic& value) { return value.sign() < 0 ? -value : value; }

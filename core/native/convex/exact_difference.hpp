@@ -4,26 +4,9 @@
 
 #include <vector>
 
-#include "base/vec.hpp"
-#include "exact/dyadic.hpp"
+#include "exact/dyadic_vec.hpp"
 
 namespace satcheck {
-
-struct DyadicVec {
-  Dyadic x, y, z;
-
-  DyadicVec() = default;
-  DyadicVec(Dyadic px, Dyadic py, Dyadic pz) : x(std::move(px)), y(std::move(py)), z(std::move(pz)) {}
-  explicit DyadicVec(Vec3 p) : x(p.x), y(p.y), z(p.z) {}
-
-  DyadicVec operator-() const { return {-x, -y, -z}; }
-};
-
-DyadicVec operator+(const DyadicVec& a, const DyadicVec& b);
-DyadicVec operator-(const DyadicVec& a, const DyadicVec& b);
-DyadicVec operator*(const DyadicVec& a, const Dyadic& s);
-Dyadic dot(const DyadicVec& a, const DyadicVec& b);
-DyadicVec cross(const DyadicVec& a, const DyadicVec& b);
 
 // The vector divided by its length; each coordinate has a relative error within 12 roundoffs. The vector must not be 0.
 Vec3 rounded_unit(const DyadicVec& v);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "exact/dyadic_vec.hpp"
 #include "exact/point_in_triangle.hpp"
 
 namespace satcheck {
@@ -27,14 +28,6 @@ double point_error(double coordinate) {
 }
 
 bool is_float64(const ExactPoint& p) { return p.error == Vec3{}; }
-
-Dyadic minor(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Dyadic& d) {
-  return a * d - b * c;
-}
-
-}  // namespace
-
-namespace {
 
 std::uint64_t digits_of(const ExactPoint& p) { return std::max({p.x.digits(), p.y.digits(), p.z.digits(), p.w.digits()}); }
 
@@ -81,21 +74,13 @@ namespace {
 // The plane through a, b and c: value(p) has the sign of orientation(a, b, c, p).
 class ExactPlane {
  public:
-  ExactPlane(Vec3 a, Vec3 b, Vec3 c) : ax_(a.x), ay_(a.y), az_(a.z) {
-    const Dyadic ux = b.x - ax_, uy = b.y - ay_, uz = b.z - az_;
-    const Dyadic vx = c.x - ax_, vy = c.y - ay_, vz = c.z - az_;
-    nx_ = minor(uy, uz, vy, vz);
-    ny_ = minor(uz, ux, vz, vx);
-    nz_ = minor(ux, uy, vx, vy);
-  }
+  ExactPlane(Vec3 a, Vec3 b, Vec3 c) : a_(a), normal_(cross(DyadicVec(b) - a_, DyadicVec(c) - a_)) {}
 
-  Dyadic value(Vec3 p) const { return nx_ * (p.x - ax_) + ny_ * (p.y - ay_) + nz_ * (p.z - az_); }
-  Dyadic value(const ExactPoint& p) const {  // times p.w
-    return nx_ * (p.x - ax_ * p.w) + ny_ * (p.y - ay_ * p.w) + nz_ * (p.z - az_ * p.w);
-  }
+  Dyadic value(Vec3 p) const { return dot(normal_, DyadicVec(p) - a_); }
+  Dyadic value(const ExactPoint& p) const { return dot(normal_, DyadicVec(p.x, p.y, p.z) - a_ * p.w); }  // times p.w
 
  private:
-  Dyadic ax_, ay_, az_, nx_, ny_, nz_;
+  DyadicVec a_, normal_;
 };
 
 }  // namespace
@@ -314,7 +299,7 @@ Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c,
   const auto difference = [&](const ExactPoint& p, int axis) {
     return coordinate(p, axis) * a.w - coordinate(a, axis) * p.w;
   };
-  return minor(difference(b, i), difference(b, j), difference(c, i), difference(c, j));
+  return difference(b, i) * difference(c, j) - difference(b, j) * difference(c, i);
 }
 
 }  // namespace satcheck

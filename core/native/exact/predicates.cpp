@@ -11,7 +11,7 @@
 #include <span>
 
 #include "base/lanes.hpp"
-#include "exact/dyadic.hpp"
+#include "exact/dyadic_vec.hpp"
 
 namespace satcheck {
 namespace {
@@ -177,18 +177,7 @@ bool may_underflow(std::span<const Vec3> points) {
 bool may_underflow(std::initializer_list<Vec3> points) { return may_underflow(std::span(points.begin(), points.size())); }
 
 // The difference of two points as integers times powers of two, which never underflow.
-class DyadicRow {
- public:
-  DyadicRow(Vec3 tail, Vec3 head)
-      : c_{Dyadic(head.x) - Dyadic(tail.x), Dyadic(head.y) - Dyadic(tail.y), Dyadic(head.z) - Dyadic(tail.z)} {}
-
-  const Dyadic& operator[](int axis) const { return c_[axis]; }
-
- private:
-  Dyadic c_[3];
-};
-
-Dyadic minor(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Dyadic& d) { return a * d - b * c; }
+DyadicVec dyadic_difference(Vec3 tail, Vec3 head) { return DyadicVec(head) - DyadicVec(tail); }
 
 // More for coordinates whose differences are longer.
 std::uint64_t dyadic_work(std::initializer_list<Vec3> points) {
@@ -205,18 +194,16 @@ std::uint64_t dyadic_work(std::initializer_list<Vec3> points) {
 }
 
 Dyadic dyadic_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
-  const DyadicRow a(p1, q1), b(p2, q2), c(p3, q3);
-  return a[0] * minor(b[1], b[2], c[1], c[2]) + a[1] * minor(b[2], b[0], c[2], c[0]) + a[2] * minor(b[0], b[1], c[0], c[1]);
+  return dot(dyadic_difference(p1, q1), cross(dyadic_difference(p2, q2), dyadic_difference(p3, q3)));
 }
 
 // The normal of the triangle, scaled by a power of two so that its longest component does not underflow. Only the
 // direction matters.
 Vec3 normal_of_tiny(Vec3 a, Vec3 b, Vec3 c) {
-  const DyadicRow u(a, b), v(a, c);
-  const Dyadic n[3] = {minor(u[1], u[2], v[1], v[2]), minor(u[2], u[0], v[2], v[0]), minor(u[0], u[1], v[0], v[1])};
+  const DyadicVec n = cross(dyadic_difference(a, b), dyadic_difference(a, c));
   for (Dyadic unit = 1;; unit = unit * Dyadic(0x1p-1000)) {
-    const Vec3 normal{rounded_ratio(n[0], unit), rounded_ratio(n[1], unit), rounded_ratio(n[2], unit)};
-    if (max_abs(normal) > 1e-150 || (n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0)) return normal;
+    const Vec3 normal{rounded_ratio(n.x, unit), rounded_ratio(n.y, unit), rounded_ratio(n.z, unit)};
+    if (max_abs(normal) > 1e-150 || (n.x.sign() == 0 && n.y.sign() == 0 && n.z.sign() == 0)) return normal;
   }
 }
 
@@ -275,8 +262,8 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis, Budget* budget) {
   if ((b[i] == a[i] || c[j] == a[j]) && (b[j] == a[j] || c[i] == a[i])) return 0;
   if (may_underflow({a, b, c})) {
     if (budget != nullptr) budget->spend(dyadic_work({a, b, c}) / kDyadicMinors);
-    const DyadicRow u(a, b), v(a, c);
-    return minor(u[i], u[j], v[i], v[j]).sign();
+    const DyadicVec u = dyadic_difference(a, b), v = dyadic_difference(a, c);
+    return (u[i] * v[j] - u[j] * v[i]).sign();
   }
   spend(budget, kMinorWork);
   return exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
@@ -295,8 +282,7 @@ int turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   if ((u.x == 0 || v.y == 0) && (u.y == 0 || v.x == 0)) return 0;
   const auto lifted = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
   if (may_underflow({lifted(a), lifted(b), lifted(c), lifted(d)})) {
-    const DyadicRow exact_u(lifted(a), lifted(b)), exact_v(lifted(c), lifted(d));
-    return minor(exact_u[0], exact_u[1], exact_v[0], exact_v[1]).sign();
+    return cross(dyadic_difference(lifted(a), lifted(b)), dyadic_difference(lifted(c), lifted(d))).z.sign();
   }
   return exact_minor(difference(b.x, a.x), difference(b.y, a.y), difference(d.x, c.x), difference(d.y, c.y)).sign();
 }
