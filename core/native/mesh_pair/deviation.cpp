@@ -12,8 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "exact/triangle_distance.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh_pair/reach.hpp"
 
 namespace satcheck {
 namespace {
@@ -42,7 +41,7 @@ class Search {
     while (!pieces_.empty() && pieces_.top().upper > lower_ + tolerance_ && evaluations_ < kMaxEvaluations) {
       const Corners c = pieces_.top().corners;
       pieces_.pop();
-      split(c);
+      for (const Corners& half : halves(c)) add(half);
     }
     const double rest = pieces_.empty() ? 0.0 : pieces_.top().upper;
     const double upper = std::fmax(lower_, std::fmax(rest, settled_));
@@ -51,33 +50,17 @@ class Search {
   }
 
  private:
-  void split(const Corners& c) {
-    int longest = 0;
-    for (int i = 1; i < 3; ++i) {
-      if (norm_squared(c[(i + 1) % 3] - c[i]) > norm_squared(c[(longest + 1) % 3] - c[longest])) longest = i;
-    }
-    const Vec3 p = c[longest], q = c[(longest + 1) % 3], apex = c[(longest + 2) % 3];
-    const Vec3 middle = p * 0.5 + q * 0.5;
-    add({p, middle, apex});
-    add({middle, q, apex});
-  }
-
   void add(const Corners& c) {
     ++evaluations_;
-    const Vec3 centre = (c[0] + c[1] + c[2]) * (1.0 / 3);
-    double radius = 0;
-    for (const Vec3& v : c) radius = std::fmax(radius, norm(v - centre));
-    const NearestPoint nearest = nearest_point(solid_, centre);
-    const Corners target = corners(solid_.mesh, nearest.triangle);
-    double upper = 0;
-    for (const Vec3& v : c) upper = std::fmax(upper, norm(nearest_on_triangle(v, target) - v));
-    upper = std::fmin(upper, nearest.distance + radius);
+    const NearPiece piece(solid_, c, nullptr);
+    const double to_surface = piece.nearest.distance;
+    double upper = std::fmin(piece.to_triangle, to_surface + piece.radius);
     // The inside test matters only for pieces that could raise the result.
     if (upper > lower_ + tolerance_) {
-      if (is_inside(centre)) {
-        upper = std::fmin(upper, std::fmax(0.0, radius - nearest.distance));
+      if (is_inside(piece.centre)) {
+        upper = std::fmin(upper, std::fmax(0.0, piece.radius - to_surface));
       } else {
-        lower_ = std::fmax(lower_, nearest.distance);
+        lower_ = std::fmax(lower_, to_surface);
         for (const Vec3& v : c) raise_lower(v);
       }
     }

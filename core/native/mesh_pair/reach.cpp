@@ -11,7 +11,6 @@
 
 #include "base/budget.hpp"
 #include "exact/triangle_distance.hpp"
-#include "mesh/nearest_point.hpp"
 
 namespace satcheck {
 namespace {
@@ -20,13 +19,6 @@ namespace {
 constexpr std::uint64_t kPieceWork = 100;
 // Those of the distance of two triangles.
 constexpr std::uint64_t kTriangleWork = 200;
-
-Aabb box_of(const Corners& c) {
-  Aabb box{c[0], c[0]};
-  box.include(c[1]);
-  box.include(c[2]);
-  return box;
-}
 
 class Reach {
  public:
@@ -39,41 +31,26 @@ class Reach {
   // Puts the halves of a piece on the list if they may reach deeper. Whether a point of it does for certain.
   bool look_at(const Corners& c, std::vector<Corners>& open, Budget& budget) const {
     budget.spend(kPieceWork);
-    if (!meet(box_of(c), core_)) return false;
-    const Vec3 centre = (c[0] + c[1] + c[2]) * (1.0 / 3);
-    double radius = 0, to_nearest = 0;
-    for (const Vec3 v : c) radius = std::fmax(radius, norm(v - centre));
-    const NearestPoint nearest = nearest_point(solid_, centre, &budget);
-    const Corners target = corners(solid_.mesh, nearest.triangle);
-    for (const Vec3 v : c) to_nearest = std::fmax(to_nearest, norm(nearest_on_triangle(v, target) - v));
-    if (std::fmin(to_nearest, nearest.distance + radius) <= length_) return false;
-    const auto winding = winding_number(solid_, centre, &budget);
-    if (winding && *winding != 0 && nearest.distance > length_) return true;
-    if (winding && *winding == 0 && (radius - nearest.distance <= length_ || !meets(c, budget))) return false;
-    halve(c, open);
+    if (!meet(triangle_box(c), core_)) return false;
+    const NearPiece piece(solid_, c, &budget);
+    const double to_surface = piece.nearest.distance;
+    if (std::fmin(piece.to_triangle, to_surface + piece.radius) <= length_) return false;
+    const auto winding = winding_number(solid_, piece.centre, &budget);
+    if (winding && *winding != 0 && to_surface > length_) return true;
+    if (winding && *winding == 0 && (piece.radius - to_surface <= length_ || !meets(c, budget))) return false;
+    for (const Corners& half : halves(c)) open.push_back(half);
     return false;
   }
 
  private:
   bool meets(const Corners& c, Budget& budget) const {
     bool meets = false;
-    visit_box(solid_.bvh, solid_.mesh, box_of(c), [&](std::uint32_t t) {
+    visit_box(solid_.bvh, solid_.mesh, triangle_box(c), [&](std::uint32_t t) {
       budget.spend(kTriangleWork);
       meets = triangle_distance(c, corners(solid_.mesh, t), &budget).distance_squared == 0;
       return !meets;
     }, &budget);
     return meets;
-  }
-
-  static void halve(const Corners& c, std::vector<Corners>& open) {
-    int longest = 0;
-    for (int i = 1; i < 3; ++i) {
-      if (norm_squared(c[(i + 1) % 3] - c[i]) > norm_squared(c[(longest + 1) % 3] - c[longest])) longest = i;
-    }
-    const Vec3 p = c[longest], q = c[(longest + 1) % 3], apex = c[(longest + 2) % 3];
-    const Vec3 middle = p * 0.5 + q * 0.5;
-    open.push_back({p, middle, apex});
-    open.push_back({middle, q, apex});
   }
 
   const Surface& solid_;
@@ -82,6 +59,25 @@ class Reach {
 };
 
 }  // namespace
+
+NearPiece::NearPiece(const Surface& solid, const Corners& piece, Budget* budget)
+    : centre((piece[0] + piece[1] + piece[2]) * (1.0 / 3)), nearest(nearest_point(solid, centre, budget)) {
+  const Corners target = corners(solid.mesh, nearest.triangle);
+  for (const Vec3 v : piece) {
+    radius = std::fmax(radius, norm(v - centre));
+    to_triangle = std::fmax(to_triangle, norm(nearest_on_triangle(v, target) - v));
+  }
+}
+
+std::array<Corners, 2> halves(const Corners& piece) {
+  int longest = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (norm_squared(piece[(i + 1) % 3] - piece[i]) > norm_squared(piece[(longest + 1) % 3] - piece[longest])) longest = i;
+  }
+  const Vec3 p = piece[longest], q = piece[(longest + 1) % 3], apex = piece[(longest + 2) % 3];
+  const Vec3 middle = p * 0.5 + q * 0.5;
+  return {Corners{p, middle, apex}, Corners{middle, q, apex}};
+}
 
 std::optional<bool> reaches_deeper(const Mesh& surface_of, const Surface& solid, double length, std::uint64_t work) {
   if (solid.bvh.nodes.empty()) return false;
