@@ -73,10 +73,7 @@ class ContactSide {
       if (samples.settled()) return;
       if (collinear(t[0], t[1], t[2]) || sampled_.contains(c.triangle)) continue;
       if (cut == Cut::self_meeting && !has_irregular_partners(side_.self, c.triangle, side_.budget)) {
-        const bool known = sample_triangle(t, c.partners, [&](const ExactPoint& p) {
-          return samples.note_at(side_, c.triangle, c.partner, p);
-        });
-        if (!known) samples.fail();
+        if (!sample_triangle(c, t, samples)) samples.fail();
       } else {
         sample_patch(c.triangle, other, samples);
       }
@@ -87,6 +84,21 @@ class ContactSide {
   void leave_out(const ContactSide& other) { sampled_.insert(other.sampled_there_.begin(), other.sampled_there_.end()); }
 
  private:
+  // Tries points of the triangle. One gives no answer if it lies on a triangle in another plane. Such a triangle meets
+  // this one in a line, and no three of the points lie on a line.
+  bool sample_triangle(const ContactTriangle& contact, const Corners& t, Samples& samples) const {
+    const auto beside = [&](const Surface& s, const ExactPoint& p) {
+      return winding_beside(s.mesh, s.bvh, p, t[0], t[1], t[2], {}, side_.budget);
+    };
+    for (std::size_t k = 0; k <= 2 * contact.partners; ++k) {
+      const double n = 1.0 + static_cast<double>(k);
+      const ExactPoint p = weighted_point(t[0], t[1], t[2], n, n * n, 1.0);
+      const auto theirs = beside(side_.other, p);
+      if (theirs && samples.note_point(side_, contact.triangle, contact.partner, p, beside(side_.self, p), theirs)) return true;
+    }
+    return false;
+  }
+
   void sample_patch(std::uint32_t triangle, const ContactSide& other, Samples& samples) {
     const PlaneCells cells({&side_.self, &side_.other}, {0, triangle}, SinglePoints::left_out, side_.budget);
     for (const PatchTriangle& member : cells.members()) {
@@ -138,11 +150,7 @@ void sample_common(const Surface& a, const Surface& b, const SurfaceContacts& co
     const LazyPoint p = lazy_centroid(c);
     const auto of_a = beside_inner(a, p, region[0].a, budget);
     const auto of_b = winding_beside(b.mesh, b.bvh, p, c[0], c[1], c[2], {}, budget);
-    if (!of_a || !of_b) {
-      samples.fail();
-      continue;
-    }
-    samples.note_beside({a, b, true, budget}, *of_a, *of_b, [&] { return Evidence{region[0].a, region[0].b, p.rounded}; });
+    if (!samples.note_point({a, b, true, budget}, region[0].a, region[0].b, p, of_a, of_b)) samples.fail();
   }
 }
 

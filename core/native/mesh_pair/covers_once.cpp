@@ -13,14 +13,11 @@ namespace {
 template <class Holds>
 bool holds_beside_all(const Surface& solid, Holds holds) {
   bool all_hold = true;
-  const auto note = [&](const std::optional<Beside>& sides) {
-    all_hold = all_hold && sides && holds(*sides);
-    return sides.has_value();
-  };
+  const auto note = [&](const std::optional<Beside>& sides) { all_hold = all_hold && sides && holds(*sides); };
   const auto all = [](std::uint32_t) { return true; };
   const auto plain = [&](std::uint32_t t) {
     const Corners c = corners(solid.mesh, t);
-    sample_triangle(c, 0, [&](const ExactPoint& p) { return note(beside(solid, p, c)); });
+    note(beside_inner(solid, lazy_centroid(c), t, nullptr));
     return all_hold;
   };
   const auto patch = [&](const PlaneCells& cells) {
@@ -50,16 +47,13 @@ bool has_opposite_triangles(const Surface& solid) {
   const Mesh& mesh = solid.mesh;
   for (const auto& [p, q, r] : distinct_triangles(mesh)) {
     const Corners c{mesh.vertices[p], mesh.vertices[q], mesh.vertices[r]};
-    Aabb box{c[0], c[0]};
-    box.include(c[1]);
-    box.include(c[2]);
     const TrianglePlane plane(c[0], c[1], c[2]);
     const int axis = projection_axis(rounded_normal(c[0], c[1], c[2])), turn = orientation_2d(c[0], c[1], c[2], axis);
     if (turn == 0) {
       if (!collinear(c[0], c[1], c[2])) return true;  // a normal that has no certain axis
       continue;
     }
-    const bool none = visit_box(solid.bvh, mesh, box, [&](std::uint32_t other) {
+    const bool none = visit_box(solid.bvh, mesh, triangle_box(c), [&](std::uint32_t other) {
       const Corners d = corners(mesh, other);
       const auto in_plane = [&](Vec3 p) { return plane.side(p) == 0; };
       return orientation_2d(d[0], d[1], d[2], axis) != -turn || !std::all_of(d.begin(), d.end(), in_plane);

@@ -58,7 +58,9 @@ bool FreeRegions::any_inside() const {
 void FreeRegions::sample_first(Samples& samples) const {
   if (!known_) samples.fail();
   for (const Region& region : regions_) {
-    if (samples.may_learn(side_, region.theirs)) sample_first_of(region, samples);
+    const Corners c = corners(side_.self.mesh, region.triangle);
+    if (!samples.may_learn(side_, region.theirs) || collinear(c[0], c[1], c[2])) continue;
+    sample_centre(region.triangle, region.theirs, samples);
   }
 }
 
@@ -67,10 +69,11 @@ void FreeRegions::sample_rest(Samples& samples) const {
   if (std::any_of(regions_.begin(), regions_.end(), may_learn)) sample_every_piece(samples);
 }
 
-void FreeRegions::sample_first_of(const Region& region, Samples& samples) const {
-  const Corners c = corners(side_.self.mesh, region.triangle);
-  if (collinear(c[0], c[1], c[2])) return;
-  sample_triangle(c, 0, [&](const ExactPoint& p) { return samples.note_free(side_, region.triangle, p, region.theirs); });
+bool FreeRegions::sample_centre(std::uint32_t t, int theirs, Samples& samples) const {
+  const Corners c = corners(side_.self.mesh, t);
+  const ExactPoint p = weighted_point(c[0], c[1], c[2], 1.0, 1.0, 1.0);
+  const auto mine = winding_beside(side_.self.mesh, side_.self.bvh, p, c[0], c[1], c[2], {}, side_.budget);
+  return samples.note_point(side_, t, kNoTriangle, p, mine, Beside{theirs, theirs});
 }
 
 void FreeRegions::sample_every_piece(Samples& samples) const {
@@ -83,8 +86,7 @@ void FreeRegions::sample_every_piece(Samples& samples) const {
   const auto theirs = [&](std::uint32_t t) { return theirs_of_set[sets.find(mesh.triangles[t][0])]; };
   const auto wanted = [&](std::uint32_t t) { return is_free(t) && samples.may_learn(side_, theirs(t)); };
   const auto plain = [&](std::uint32_t t) {
-    const bool known = sample_triangle(corners(mesh, t), 0, [&](const ExactPoint& p) { return samples.note_free(side_, t, p, theirs(t)); });
-    if (!known) samples.fail();
+    if (!sample_centre(t, theirs(t), samples)) samples.fail();
     return !samples.settled();
   };
   const auto patch = [&](const PlaneCells& cells) {

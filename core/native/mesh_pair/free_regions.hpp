@@ -30,7 +30,8 @@ class FreeRegions {
 
   bool is_free(std::uint32_t t) const { return in_contact_.empty() || !in_contact_[t]; }
   void add(std::uint32_t triangle);
-  void sample_first_of(const Region& region, Samples& samples) const;
+  // False: the winding number of its own surface is not decided.
+  bool sample_centre(std::uint32_t t, int theirs, Samples& samples) const;
   void sample_every_piece(Samples& samples) const;
 
   Side side_;

@@ -102,7 +102,7 @@ MeshRelation relation_of_closed(const Surface& a, const Surface& b, const Surfac
                                 Budget* budget) {
   if (const auto simple = simple_relation_of(a, b, contacts, budget)) return *simple;
   if (!contacts.crossing) return judged_relation(a, b, contacts, wanted, budget);
-  const SurfaceContacts all = find_contacts_apart(a, b, AtCrossing::go_on, budget);
+  const SurfaceContacts all = find_contacts(a, b, AtCrossing::go_on, budget, kManyContacts);
   const MeshRelation judged = judged_relation(a, b, all, wanted, budget);
   // Each triangle bounds material, is within it, or is a sheet. If two triangles cross, the bodies overlap, even if
   // samples do not show it.
@@ -111,7 +111,7 @@ MeshRelation relation_of_closed(const Surface& a, const Surface& b, const Surfac
 
 // The relation of two closed surfaces, for any triangles.
 MeshRelation relation_of_points(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
-  return relation_of_closed(a, b, find_contacts_apart(a, b, AtCrossing::stop, budget), wanted, budget);
+  return relation_of_closed(a, b, find_contacts(a, b, AtCrossing::stop, budget, kManyContacts), wanted, budget);
 }
 
 // Whether boundaries cross here, and not internal walls of a body.
@@ -157,7 +157,7 @@ MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
   if (const auto in_plane = prism_relation(a, b)) return *in_plane;
-  const SurfaceContacts contacts = find_contacts_apart(a, b, AtCrossing::stop, budget);
+  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop, budget, kManyContacts);
   const bool closed = a.solid && b.solid;
   const auto relation_of = closed ? relation_of_closed : relation_of_open;
   return with_counts(relation_of(a, b, contacts, wanted, budget), contacts);

@@ -23,13 +23,7 @@ struct Side {
   }
 };
 
-// Winding numbers of the surface beside a point of triangle t of any mesh; empty if the point lies on a triangle of the
-// surface in another plane.
-inline std::optional<Beside> beside(const Surface& s, const ExactPoint& p, const Corners& t, Budget* budget = nullptr) {
-  return winding_beside(s.mesh, s.bvh, p, t[0], t[1], t[2], {}, budget);
-}
-
-// The same beside a point that is known to be inside triangle t of the surface.
+// Winding numbers of the surface beside a point that is known to be inside its triangle t.
 inline std::optional<Beside> beside_inner(const Surface& s, const LazyPoint& p, std::uint32_t t, Budget* budget) {
   const Corners c = corners(s.mesh, t);
   return winding_beside(s.mesh, s.bvh, p, c[0], c[1], c[2], t, budget);
@@ -97,22 +91,11 @@ class Samples {
     facts_.contact = true;
   }
 
-  // Notes a point of triangle t of side.self. theirs: the winding number of the other surface there. False: the winding
-  // number of its own surface was not decided.
-  bool note_free(const Side& side, std::uint32_t t, const ExactPoint& p, int theirs) {
-    const auto mine = beside(side.self, p, corners(side.self.mesh, t), side.budget);
-    if (!mine) return false;
-    note_beside(side, *mine, {theirs, theirs}, [&] { return side.evidence(t, kNoTriangle, p.rounded); });
-    return true;
-  }
-
-  // The same for any point; `partner` is the triangle to name beside t.
-  bool note_at(const Side& side, std::uint32_t t, std::uint32_t partner, const ExactPoint& p) {
-    const Corners c = corners(side.self.mesh, t);
-    const auto theirs = beside(side.other, p, c, side.budget);
-    if (!theirs) return false;
-    const auto mine = beside(side.self, p, c, side.budget);
-    if (!mine) return false;
+  // Notes a point of triangle t of side.self; `partner`: the triangle to name beside it. False: not decided.
+  template <class Point>
+  bool note_point(const Side& side, std::uint32_t t, std::uint32_t partner, const Point& p, const std::optional<Beside>& mine,
+                  const std::optional<Beside>& theirs) {
+    if (!mine || !theirs) return false;
     note_beside(side, *mine, *theirs, [&] { return side.evidence(t, partner, p.rounded); });
     return true;
   }
@@ -165,17 +148,5 @@ class Samples {
   PairFacts facts_;
   std::unordered_map<std::uint32_t, bool> is_sheet_[2];
 };
-
-// Tries points of the triangle until note(point) returns true. A point gives no answer if it lies on a triangle in
-// another plane. Such a triangle meets this one in a line, and no three of the points lie on a line. `others`: how many
-// there are, at most.
-template <class Note>
-bool sample_triangle(const Corners& t, std::size_t others, Note note) {
-  for (std::size_t k = 0; k <= 2 * others; ++k) {
-    const double n = 1.0 + static_cast<double>(k);
-    if (note(weighted_point(t[0], t[1], t[2], n, n * n, 1.0))) return true;
-  }
-  return false;
-}
 
 }  // namespace satcheck

@@ -106,12 +106,7 @@ class Traversal {
 
 }  // namespace
 
-SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget) {
-  return Traversal(a, b, at_crossing, budget, SIZE_MAX).run();
-}
-
-SurfaceContacts find_contacts_apart(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget,
-                                    std::size_t many) {
+SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget, std::size_t many) {
   return Traversal(a, b, at_crossing, budget, many).run();
 }
 

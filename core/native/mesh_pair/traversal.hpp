@@ -25,11 +25,9 @@ struct SurfaceContacts {
 
 enum class AtCrossing { stop, go_on };
 
-SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget = nullptr);
-
-// With the common triangles apart, if more than `many` pairs meet and many of them are common.
+// many: if more pairs meet, and many of them are common triangles, these are apart.
 inline constexpr std::size_t kManyContacts = 4096;
-SurfaceContacts find_contacts_apart(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget,
-                                    std::size_t many = kManyContacts);
+SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing, Budget* budget = nullptr,
+                              std::size_t many = SIZE_MAX);
 
 }  // namespace satcheck

@@ -23,7 +23,7 @@ Mesh large_box() { return testing::box({-2, -2, -2}, {3, 3, 3}); }
 void sphere_in_its_socket() {
   const Mesh sphere = testing::uv_sphere(12);
   const Surface a = joined({sphere}), b = joined({large_box(), testing::reversed(sphere)});
-  const SurfaceContacts apart = find_contacts_apart(a, b, AtCrossing::go_on, nullptr, 0);
+  const SurfaceContacts apart = find_contacts(a, b, AtCrossing::go_on, nullptr, 0);
   CHECK(apart.contacts.empty() && apart.common.size() == 1 && apart.common[0].size() == sphere.triangles.size());
   const PairFacts facts = judge_contact(a, b, apart, Wanted::relation);
   CHECK(facts.relation() == Relation::touching && facts.proven && facts.touch.has_value());
@@ -36,7 +36,7 @@ void what_meets_common_triangles_divides_them() {
   const Surface a = joined({block});
   const auto regions = [&](Vec3 low, Vec3 high) {
     const Surface b = joined({block, testing::box(low, high)});
-    return find_contacts_apart(a, b, AtCrossing::go_on, nullptr, 0).common;
+    return find_contacts(a, b, AtCrossing::go_on, nullptr, 0).common;
   };
   CHECK(regions({2, 2, 2}, {3, 3, 3}).size() == 1);
   CHECK(regions({2, 2, 2}, {3, 3, 3})[0].size() == 12);
@@ -66,7 +66,7 @@ void random_solids_of_few_places() {
     }
     const Surface a = joined(parts[0]), b = joined(parts[1]);
     const SurfaceContacts all = find_contacts(a, b, AtCrossing::go_on);
-    const SurfaceContacts apart = find_contacts_apart(a, b, AtCrossing::go_on, nullptr, 0);
+    const SurfaceContacts apart = find_contacts(a, b, AtCrossing::go_on, nullptr, 0);
     with_regions += apart.common.empty() ? 0 : 1;
     CHECK(all.crossing.has_value() == apart.crossing.has_value());
     const PairFacts of_all = judge_contact(a, b, all, Wanted::relation), found = judge_contact(a, b, apart, Wanted::relation);
