@@ -70,7 +70,8 @@ std::uint32_t SpaceCells::cut_triangle(int mesh, std::uint32_t triangle) {
   complete_ = complete_ && !collinear(c[0], c[1], c[2]);
   if (!complete_) return 0;
   cut_[mesh][triangle] = static_cast<std::uint32_t>(cuts_.size());
-  const TriangleFaces& faces = cuts_.emplace_back(nodes_, c, sides_of(mesh, triangle), segments_in(mesh, triangle), budget_);
+  const TriangleFaces& faces = cuts_.emplace_back(nodes_, mesh, surface(mesh).mesh.triangles[triangle], c,
+                                                  segments_in(mesh, triangle), budget_);
   for (std::uint32_t h = 0; h < faces.half_edge_count(); ++h) {
     if (faces.left(h) == TriangleFaces::kOutside) continue;
     const std::uint32_t from = faces.start(h), to = faces.start(h ^ 1);
@@ -78,15 +79,6 @@ std::uint32_t SpaceCells::cut_triangle(int mesh, std::uint32_t triangle) {
     half_planes_.push_back({std::min(from, to), std::max(from, to), mesh, triangle, face, from < to, faces.side_of(h)});
   }
   return faces.count();
-}
-
-std::array<TriangleFaces::TriangleSide, 3> SpaceCells::sides_of(int mesh, std::uint32_t triangle) const {
-  const Triangle& v = surface(mesh).mesh.triangles[triangle];
-  const auto side = [&](std::uint32_t from, std::uint32_t to) {
-    return TriangleFaces::TriangleSide{nodes_.of_vertex(mesh, from), nodes_.of_vertex(mesh, to),
-                                       nodes_.inside(mesh, MeshFeature::edge(from, to))};
-  };
-  return {side(v[0], v[1]), side(v[1], v[2]), side(v[2], v[0])};
 }
 
 std::vector<NodePair> SpaceCells::segments_in(int mesh, std::uint32_t triangle) const {

@@ -66,7 +66,6 @@ class SpaceCells {
   void meet(std::size_t max_pairs);
   void cut(int mesh);
   std::uint32_t cut_triangle(int mesh, std::uint32_t triangle);
-  std::array<TriangleFaces::TriangleSide, 3> sides_of(int mesh, std::uint32_t triangle) const;
   std::vector<NodePair> segments_in(int mesh, std::uint32_t triangle) const;
   void join_at_edges(int mesh);
   void join_at_stretches();

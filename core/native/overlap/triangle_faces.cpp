@@ -11,9 +11,9 @@ LazyPoint lazy(const ExactPoint& p) {
 
 }  // namespace
 
-TriangleFaces::TriangleFaces(const MeetingNodes& nodes, const Corners& triangle, const std::array<TriangleSide, 3>& sides,
+TriangleFaces::TriangleFaces(const MeetingNodes& nodes, int mesh, const Triangle& triangle, const Corners& corners,
                              const std::vector<NodePair>& segments, Budget* budget)
-    : graph_(triangle, budget) {
+    : graph_(corners, budget) {
   std::map<std::uint32_t, std::uint32_t> numbers;
   std::vector<int> on_sides;  // of each node of the graph: bit i for side i
   const auto node = [&](std::uint32_t name, int bits) {
@@ -27,10 +27,11 @@ TriangleFaces::TriangleFaces(const MeetingNodes& nodes, const Corners& triangle,
     return known->second;
   };
   for (int i = 0; i < 3; ++i) {
-    const std::uint32_t from = node(sides[i].from, 1 << i), to = node(sides[i].to, 1 << i);
+    const std::uint32_t first = triangle[i], last = triangle[(i + 1) % 3];
+    const std::uint32_t from = node(nodes.of_vertex(mesh, first), 1 << i), to = node(nodes.of_vertex(mesh, last), 1 << i);
     corners_.push_back(from);
     graph_.add_segment(from, to, 0, {});
-    for (const std::uint32_t name : sides[i].inside) graph_.add_stop(from, to, node(name, 1 << i));
+    for (const std::uint32_t name : nodes.inside(mesh, MeshFeature::edge(first, last))) graph_.add_stop(from, to, node(name, 1 << i));
   }
   for (const auto& [low, high] : segments) {
     const std::uint32_t from = node(low, 0), to = node(high, 0);

@@ -1,7 +1,6 @@
 // The faces into which another surface cuts a triangle, from the names of the nodes on them (mesh/plane_graph.hpp).
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "mesh/chains.hpp"
@@ -14,15 +13,9 @@ class TriangleFaces {
  public:
   static constexpr std::uint32_t kOutside = 0xFFFFFFFF;
 
-  // The nodes on a side of the triangle.
-  struct TriangleSide {
-    std::uint32_t from, to;
-    std::vector<std::uint32_t> inside;
-  };
-
-  // segments: in the triangle, each once; they meet only at common nodes. Those along a side are left out. The triangle
-  // must not be collinear.
-  TriangleFaces(const MeetingNodes& nodes, const Corners& triangle, const std::array<TriangleSide, 3>& sides,
+  // mesh: 0 or 1, as in `nodes`, which have all that are on the sides. segments: in the triangle, each once; they meet
+  // only at common nodes. Those along a side are left out. The triangle must not be collinear.
+  TriangleFaces(const MeetingNodes& nodes, int mesh, const Triangle& triangle, const Corners& corners,
                 const std::vector<NodePair>& segments, Budget* budget);
 
   std::uint32_t count() const { return graph_.face_count() - 1; }
