@@ -87,6 +87,15 @@ void an_island_within_a_triangle() {
   CHECK(check_patch(large, small, {0, 0}) == 3);
 }
 
+// A pipe and a rod in it, which stand through a triangle: outlines around each other, none of which meet.
+void islands_within_islands() {
+  const Surface large = joined({sheet({0, 0, 0}, {9, 0, 0}, {0, 9, 0})});
+  const auto column = [](double low, double high) { return box({low, low, -1}, {high, high, 1}); };
+  const Surface pipe = joined({column(0.5, 4), reversed(column(1, 3)), column(1.5, 2), column(3.25, 3.5)});
+  // Around the pipe, the pipe between its walls, the bore around the rod, the rod, and one that is within the pipe.
+  CHECK(check_patch(large, pipe, {0, 0}) == 5);
+}
+
 void lattices_and_soups() {
   std::mt19937 generator(41);
   std::uniform_int_distribution<int> coarse(0, 4);
@@ -116,5 +125,6 @@ void lattices_and_soups() {
 UNIT(plane_cells) {
   a_lid_and_its_neighbours();
   an_island_within_a_triangle();
+  islands_within_islands();
   lattices_and_soups();
 }

@@ -34,6 +34,19 @@ void pin_through_a_plate() {
   CHECK(passes_through(pin, plate, kPlenty) == true && passes_through(plate, pin, kPlenty) == true);
 }
 
+// The faces that they cut from the plate have holes, and one lies in the hole of another.
+void post_with_a_rod_in_its_cavity() {
+  const auto column = [](double low, double high, double ends) { return testing::box({low, low, -ends}, {high, high, 1 + ends}); };
+  Mesh post = column(1, 5, 3);
+  testing::append(post, testing::reversed(column(2, 4, 2)));
+  testing::append(post, column(2.5, 3.5, 1));
+  const OverlapComponents overlap = overlap_components(make_surface(post, true), box({0, 0, 0}, {9, 9, 1}), kPlenty);
+  CHECK(overlap.resolved && overlap.components.size() == 2);
+  CHECK(std::fabs(overlap.components[0].volume - 12) < 1e-12 && overlap.components[0].curves == 4);
+  CHECK(std::fabs(overlap.components[1].volume - 1) < 1e-12 && overlap.components[1].curves == 2);
+  for (const OverlapComponent& component : overlap.components) CHECK(component.a_through_b == true);
+}
+
 // A box in a box that encloses it, but for a cave that reaches into neither.
 void caves() {
   Mesh hollow = testing::box({0, 0, 0}, {8, 8, 8});
@@ -77,6 +90,7 @@ void spheres_cross_in_one_curve() {
 UNIT(overlap_components) {
   corner_of_boxes();
   pin_through_a_plate();
+  post_with_a_rod_in_its_cavity();
   caves();
   what_is_not_resolved();
   spheres_cross_in_one_curve();
