@@ -125,8 +125,7 @@ void PlaneCells::start_left_of(std::uint32_t h) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const ExactPoint p = *graph_.inside_left_of(h, corners_, attempt);
     sides.at = {};
-    spend(budget_, kHoldsWork * members_.size());
-    for (const PatchTriangle& member : members_) sides.at[member.surface].cover += holds(corners_of(member), p) ? 1 : 0;
+    for (const PatchTriangle& member : members_at(p)) ++sides.at[member.surface].cover;
     decided_ = true;
     for (std::size_t s = 0; s < surfaces_.size(); ++s) {
       const auto& [a, b, c] = first_corners_;
@@ -174,40 +173,12 @@ bool PlaneCells::holds(const Corners& triangle, const ExactPoint& p) const {
   return side(0) == side(1) && side(0) == side(2);
 }
 
-std::array<std::uint32_t, 2> PlaneCells::triangles_at(const ExactPoint& p) const {
+std::vector<PatchTriangle> PlaneCells::members_at(const ExactPoint& p) const {
   spend(budget_, kHoldsWork * members_.size());
-  std::array<std::uint32_t, 2> at{PlaneGraph::kNone, PlaneGraph::kNone};
-  for (const PatchTriangle& member : members_) {
-    if (at[member.surface] == PlaneGraph::kNone && holds(corners_of(member), p)) at[member.surface] = member.triangle;
-  }
+  std::vector<PatchTriangle> at;
+  std::copy_if(members_.begin(), members_.end(), std::back_inserter(at),
+               [&](const PatchTriangle& member) { return holds(corners_of(member), p); });
   return at;
-}
-
-std::vector<std::uint32_t> PlaneCells::cells_in(PatchTriangle member) const {
-  spend(budget_, kListedWork * (members_.size() + graph_.half_edge_count()));
-  const std::size_t number = std::find(members_.begin(), members_.end(), member) - members_.begin();
-  std::array<std::uint32_t, 3> at{corners_[3 * number], corners_[3 * number + 1], corners_[3 * number + 2]};
-  if (graph_.side(at[0], at[1], graph_.node(at[2])) < 0) std::swap(at[1], at[2]);
-  std::vector<bool> is_side(graph_.half_edge_count() / 2, false), visited(graph_.face_count(), false);
-  std::vector<std::uint32_t> stack, inside;
-  const auto push = [&](std::uint32_t h) {
-    if (!visited[graph_.face(h)]) stack.push_back(graph_.face(h));
-    visited[graph_.face(h)] = true;
-  };
-  for (int i = 0; i < 3; ++i) {
-    for (const std::uint32_t h : graph_.along(at[i], at[(i + 1) % 3])) {
-      is_side[h / 2] = true;
-      push(h);
-    }
-  }
-  while (!stack.empty()) {
-    inside.push_back(stack.back());
-    stack.pop_back();
-    graph_.visit(inside.back(), [&](std::uint32_t h) {
-      if (!is_side[h / 2]) push(h ^ 1);
-    });
-  }
-  return inside;
 }
 
 std::vector<std::uint32_t> PlaneCells::nodes_of(std::uint32_t cell) const {

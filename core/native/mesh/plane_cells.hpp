@@ -35,14 +35,13 @@ class PlaneCells {
 
   const std::vector<PatchTriangle>& members() const { return members_; }
 
-  // The cells in the patch, by number; and those in one triangle of the patch.
+  // The cells in the patch, by number.
   const std::vector<std::uint32_t>& cells() const { return in_patch_; }
-  std::vector<std::uint32_t> cells_in(PatchTriangle member) const;
   // The winding numbers beside the cell; empty if no ray decides them. The front is that of the first triangle.
   std::optional<Beside> beside(std::uint32_t cell, int surface) const;
-  // A point inside the cell; and for each surface a triangle of the patch that contains it, or PlaneGraph::kNone.
+  // A point inside the cell; and the triangles of the patch that contain it.
   ExactPoint inside(std::uint32_t cell) const;
-  std::array<std::uint32_t, 2> triangles_at(const ExactPoint& p) const;
+  std::vector<PatchTriangle> members_at(const ExactPoint& p) const;
 
   const LazyPoint& node(std::uint32_t number) const { return graph_.node(number); }
   std::vector<std::uint32_t> nodes_of(std::uint32_t cell) const;

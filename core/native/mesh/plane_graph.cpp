@@ -69,7 +69,7 @@ std::uint32_t PlaneGraph::piercing(Vec3 p, Vec3 q) {
 void PlaneGraph::add_segment(std::uint32_t from, std::uint32_t to, int surface, const PlaneChange& change) {
   if (from == to) return;
   const auto [known, is_new] = segment_of_.try_emplace(std::minmax(from, to), static_cast<std::uint32_t>(segments_.size()));
-  if (is_new) segments_.push_back({std::min(from, to), std::max(from, to), {}, {}, {}});
+  if (is_new) segments_.push_back({std::min(from, to), std::max(from, to), {}, {}});
   segments_[known->second].changes[surface] += from < to ? change : -change;
 }
 
@@ -203,7 +203,6 @@ void PlaneGraph::merge_edges() {
     } else {
       edges_[count++] = edge;
     }
-    segments_[edge.segment].edges.push_back(static_cast<std::uint32_t>(count - 1));
   }
   edges_.resize(count);
 }
@@ -218,20 +217,6 @@ std::uint32_t PlaneGraph::far_end(std::uint32_t h) const {
 PlaneChanges PlaneGraph::changes(std::uint32_t h) const {
   const PlaneChanges& changes = edges_[h / 2].changes;
   return h % 2 == 0 ? changes : PlaneChanges{-changes[0], -changes[1]};
-}
-
-std::vector<std::uint32_t> PlaneGraph::along(std::uint32_t from, std::uint32_t to) const {
-  const Segment& s = segments_[segment_of_.at(std::minmax(from, to))];
-  const int axis = axis_along(s), way = compare(to, from, axis);
-  std::vector<std::uint32_t> half_edges;
-  for (const std::uint32_t e : s.edges) {
-    const bool upward = compare(edges_[e].high, edges_[e].low, axis) == way;
-    half_edges.push_back(2 * e + (upward ? 0 : 1));
-  }
-  std::sort(half_edges.begin(), half_edges.end(), [&](std::uint32_t g, std::uint32_t h) {
-    return g != h && way * compare_along(nodes_[start(g)], nodes_[start(h)], axis) < 0;
-  });
-  return half_edges;
 }
 
 void PlaneGraph::trace() {

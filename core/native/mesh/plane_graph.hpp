@@ -84,9 +84,6 @@ class PlaneGraph {
   void visit(std::uint32_t face, Visit visit) const {
     for (const std::uint32_t outline : outlines_[face]) visit_outline(outline, visit);
   }
-  // The half-edges along a segment, in order.
-  std::vector<std::uint32_t> along(std::uint32_t from, std::uint32_t to) const;
-
   // A point on the left of a half-edge, before any other segment; another one for each attempt. It lies on the way to
   // one of the nodes `corners`; empty if none is on the left.
   std::optional<ExactPoint> inside_left_of(std::uint32_t h, const std::vector<std::uint32_t>& corners, int attempt) const;
@@ -96,7 +93,6 @@ class PlaneGraph {
     std::uint32_t from, to;
     PlaneChanges changes;
     std::vector<std::uint32_t> stops;  // nodes inside it
-    std::vector<std::uint32_t> edges;
   };
   struct Edge {
     std::uint32_t low, high;  // nodes

@@ -65,18 +65,18 @@ class Sheets {
     // A triangle that meets no other has material on one side.
     if (collinear(c[0], c[1], c[2], budget_) || !has_irregular_partners(surface_, t, budget_)) return;
     const PlaneCells cells({&surface_}, {0, t}, SinglePoints::left_out, budget_);
-    const auto sheet_of = [&](const std::vector<std::uint32_t>& inside) {
-      Sheet sheet{false, true};
-      for (const std::uint32_t cell : inside) {
-        const auto sides = cells.beside(cell, 0);
-        sheet.any = sheet.any || !sides || sides->is_sheet();
-        sheet.all = sheet.all && sides && sides->is_sheet();
-      }
-      return sheet;
+    Sheet patch{false, true};
+    const auto include = [&](Sheet& sheet, std::uint32_t cell) {
+      const auto sides = cells.beside(cell, 0);
+      sheet.any = sheet.any || !sides || sides->is_sheet();
+      sheet.all = sheet.all && sides && sides->is_sheet();
     };
-    const Sheet patch = sheet_of(cells.cells());
-    for (const PatchTriangle& member : cells.members()) {
-      known_[member.triangle] = patch.any == patch.all ? patch : sheet_of(cells.cells_in(member));
+    for (const std::uint32_t cell : cells.cells()) include(patch, cell);
+    const bool is_mixed = patch.any != patch.all;
+    for (const PatchTriangle& member : cells.members()) known_[member.triangle] = is_mixed ? Sheet{false, true} : patch;
+    if (!is_mixed) return;
+    for (const std::uint32_t cell : cells.cells()) {
+      for (const PatchTriangle& member : cells.members_at(cells.inside(cell))) include(known_[member.triangle], cell);
     }
   }
 

@@ -38,7 +38,9 @@ TriangleFaces::TriangleFaces(const MeetingNodes& nodes, int mesh, const Triangle
     if ((on_sides[from] & on_sides[to]) == 0) graph_.add_segment(from, to, 0, {});
   }
   graph_.build_named();
-  outside_ = graph_.face(graph_.along(corners_[0], corners_[1])[0] ^ 1);
+  std::uint32_t along = 0;  // the first side
+  while (graph_.segment(along) != 0 || graph_.start(along) != corners_[0]) ++along;
+  outside_ = graph_.face(along ^ 1);
 }
 
 ExactPoint TriangleFaces::sample(std::uint32_t face) const {
