@@ -23,7 +23,8 @@ constexpr std::uint64_t kTriangleWork = 30, kListedWork = 5;
 class Cavities {
  public:
   Cavities(const Mesh& mesh, const EdgeTable& edges, const Labels& components, Budget* budget)
-      : mesh_(mesh), budget_(budget), components_(components), of_triangle_(components.of_triangle), members_(components.members()), open_(find_open_sets(components, edges)) {
+      : mesh_(mesh), budget_(budget), components_(components), of_triangle_(components.of_triangle),
+        members_(components.members()), open_(find_open_sets(components, edges)) {
     for (std::size_t c = 0; c < members_.size(); ++c) volumes_.push_back(open_[c] ? 0 : volume(members_[c]));
   }
 

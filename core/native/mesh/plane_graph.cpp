@@ -242,7 +242,11 @@ void PlaneGraph::trace() {
   outline_.assign(half_edges, kNone);
   for (std::uint32_t h = 0; h < half_edges; ++h) {
     if (outline_[h] != kNone) continue;
-    for (std::uint32_t g = h; outline_[g] == kNone; g = next_[g]) outline_[g] = static_cast<std::uint32_t>(first_.size());
+    boxes_.emplace_back();
+    for (std::uint32_t g = h; outline_[g] == kNone; g = next_[g]) {
+      outline_[g] = static_cast<std::uint32_t>(first_.size());
+      boxes_.back().include(point_box(nodes_[start(g)]));
+    }
     first_.push_back(h);
   }
 }
@@ -276,7 +280,8 @@ void PlaneGraph::join_outlines(DisjointSets& sets) const {
   for (std::uint32_t h = 0; h < half_edge_count(); ++h) {
     const std::uint32_t at = start(h);
     std::uint32_t& known = last[part_[at]];
-    if (known == kNone || (at == start(known) ? side(at, far_end(known), nodes_[far_end(h)]) > 0 : is_before(at, start(known)))) known = h;
+    const bool is_later = known != kNone && at == start(known) && side(at, far_end(known), nodes_[far_end(h)]) > 0;
+    if (known == kNone || is_later || (at != start(known) && is_before(at, start(known)))) known = h;
   }
   std::uint32_t outside = kNone;
   for (const std::uint32_t h : last) {
@@ -298,7 +303,7 @@ int PlaneGraph::winding(std::uint32_t outline, const LazyPoint& p) const {
     const bool from_below = compare_along(nodes_[start(h)], p, axis, budget_) <= 0;
     const bool to_below = compare_along(nodes_[end(h)], p, axis, budget_) <= 0;
     if (from_below == to_below) return;
-    const bool on_left = turn_ * side(start(h), end(h), p) > 0;
+    const bool on_left = turn_ * side(far_end(h ^ 1), far_end(h), p) > 0;
     if (on_left == from_below) winding += from_below ? turn_ : -turn_;
   });
   spend(budget_, kPassWork * count);
@@ -311,7 +316,7 @@ std::uint32_t PlaneGraph::outline_around(const LazyPoint& p, std::uint32_t other
   std::uint32_t innermost = kNone;
   for (std::uint32_t k = 0; k < first_.size(); ++k) {
     const std::uint32_t node = start(first_[k]);
-    if (part_[node] == other_than || winding(k, p) <= 0) continue;
+    if (part_[node] == other_than || !satcheck::meet(boxes_[k], point_box(p)) || winding(k, p) <= 0) continue;
     if (innermost == kNone || winding(innermost, nodes_[node]) > 0) innermost = k;
   }
   return innermost;

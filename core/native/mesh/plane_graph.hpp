@@ -141,6 +141,7 @@ class PlaneGraph {
   // An outline: what is on the left of half-edges that follow each other.
   std::vector<std::uint32_t> next_, outline_;         // of each half-edge
   std::vector<std::uint32_t> first_, face_;           // of each outline: a half-edge, and the face
+  std::vector<Aabb> boxes_;                           // of each outline
   std::vector<std::vector<std::uint32_t>> outlines_;  // of each face
 };
 

@@ -31,7 +31,9 @@ TriangleFaces::TriangleFaces(const MeetingNodes& nodes, int mesh, const Triangle
     const std::uint32_t from = node(nodes.of_vertex(mesh, first), 1 << i), to = node(nodes.of_vertex(mesh, last), 1 << i);
     corners_.push_back(from);
     graph_.add_segment(from, to, 0, {});
-    for (const std::uint32_t name : nodes.inside(mesh, MeshFeature::edge(first, last))) graph_.add_stop(from, to, node(name, 1 << i));
+    for (const std::uint32_t name : nodes.inside(mesh, MeshFeature::edge(first, last))) {
+      graph_.add_stop(from, to, node(name, 1 << i));
+    }
   }
   for (const auto& [low, high] : segments) {
     const std::uint32_t from = node(low, 0), to = node(high, 0);

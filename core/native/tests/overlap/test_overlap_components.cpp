@@ -36,7 +36,9 @@ void pin_through_a_plate() {
 
 // The faces that they cut from the plate have holes, and one lies in the hole of another.
 void post_with_a_rod_in_its_cavity() {
-  const auto column = [](double low, double high, double ends) { return testing::box({low, low, -ends}, {high, high, 1 + ends}); };
+  const auto column = [](double low, double high, double ends) {
+    return testing::box({low, low, -ends}, {high, high, 1 + ends});
+  };
   Mesh post = column(1, 5, 3);
   testing::append(post, testing::reversed(column(2, 4, 2)));
   testing::append(post, column(2.5, 3.5, 1));
