@@ -33,7 +33,7 @@ std::vector<std::array<std::uint32_t, 3>> distinct_triangles(const Mesh& mesh) {
   std::vector<std::array<std::uint32_t, 3>> distinct;
   for (const auto& t : mesh.triangles) {
     std::array<std::uint32_t, 3> corners{t[0], t[1], t[2]};
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     distinct.push_back(corners);
   }
   std::ranges::sort(distinct);
