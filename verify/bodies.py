@@ -122,10 +122,10 @@ class Placed:
         return replace(self, world=world, curved=self.curved and self.curved.moved(offset))
 
 
-def curve_error(a: Placed, b: Placed) -> Fraction:
+def curve_error(*bodies: Placed) -> Fraction:
     """Return how much closer (or deeper) two bodies may be than their polygons, world units; 0: the
     polygons are exact."""
-    return Fraction(a.deviation) + Fraction(b.deviation)
+    return sum((Fraction(body.deviation) for body in bodies), Fraction())
 
 
 def box_gaps(a: Placed, b: Placed) -> Point:

@@ -9,14 +9,13 @@ the fills of its holes may be nearer, and pieces of it may surround the other bo
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
 
 from msgspec import UnsetType
 
 from satcheck.report.certificate import Certificate
-from satcheck.report.judge import named
-from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.report import Finding
 from satcheck.report.request import Request
 from satcheck.scene.inspect import MOST_AROUND
 from satcheck.verify.bodies import Placed, box_gaps, curve_error
@@ -25,7 +24,6 @@ from satcheck.verify.exact import Rejected, TooMany, dot
 from satcheck.verify.figures import EXACT_WIDTH, Rounding, default_tolerance
 from satcheck.verify.open_parts import turns_around
 from satcheck.verify.pairs import AnyPair, Pair, given, vector
-from satcheck.verify.severity import check_severity
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact
 
@@ -33,25 +31,54 @@ from satcheck.verify.world import Exact
 MOST_NEAR = 2_000_000
 
 
-def spanned(finding: Finding, rounding: Rounding, pair: AnyPair) -> bool:
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """A finding with its certificate, its bodies, and what is asked of them. tolerance: of the
+    touch band."""
+
+    finding: Finding
+    certificate: Certificate
+    pair: AnyPair
+    request: Request
+    tolerance: Fraction
+    rounding: Rounding
+
+    @property
+    def clearance(self) -> Fraction:
+        return Fraction(self.request.clearance or 0.0)
+
+    @property
+    def least_gap(self) -> Fraction:
+        """The least gap that the finding may have if it claims to keep its clearance. A gap that
+        equals the clearance up to rounding keeps it."""
+        if self.finding.relation != "separated" or self.finding.undecided == "limit":
+            return Fraction(0)
+        return self.clearance * (1 - EXACT_WIDTH)
+
+
+def spanned(claim: Claim) -> bool:
     """Return whether the gap or the overlap of a convex pair along the normal is what the finding
     states. Rejects a closer pair."""
+    finding, pair = claim.finding, claim.pair
     figure = finding.distance if finding.depth is None else -finding.depth
     if finding.normal is None or figure is None or not pair.convex:
         return False
     length = Fraction(figure)
-    if pair.gap(vector(finding.normal), length - 2 * rounding.of(length)) < 0:
+    if pair.gap(vector(finding.normal), length - 2 * claim.rounding.of(length)) < 0:
         raise Rejected("along the normal the bodies are closer than the finding says")
     return finding.witness is not None
 
 
-def check_distance(finding: Finding, certificate: Certificate, pair: Pair) -> Fraction | None:
-    """Return how far the distance of meshes may be off; None: it is not proven."""
+def check_distance(claim: Claim, *, spans: bool) -> Fraction | None:
+    """Return how far the distance may be off; None: it is not proven. spans: see `spanned`."""
+    finding, pair = claim.finding, claim.pair
     if finding.exact_relation == "touching":
         return Fraction(0)
     if finding.distance is None:
         return None
     length = Fraction(finding.distance)
+    if not isinstance(pair, Pair):
+        return 2 * claim.rounding.of(length) if spans else None
     error = EXACT_WIDTH * length
     if not pair.convex:
         try:
@@ -61,9 +88,9 @@ def check_distance(finding: Finding, certificate: Certificate, pair: Pair) -> Fr
         if not nearest:
             raise Rejected("the bodies are further apart than the distance")
         return error
-    if isinstance(certificate.distance, UnsetType):
+    if isinstance(claim.certificate.distance, UnsetType):
         return None
-    step = pair.step(certificate.distance)
+    step = pair.step(claim.certificate.distance)
     if dot(step, step) > (length + error) ** 2:
         raise Rejected("the points of the distance are further apart than that")
     if pair.gap(step, length - error) < 0:
@@ -82,28 +109,45 @@ def nothing_nearer(a: Exact, b: Exact, length: Fraction, most: Fraction) -> bool
     return found
 
 
-def is_within(certificate: Certificate, pair: AnyPair, length: Fraction, *, open_: bool) -> bool:
+def is_within(claim: Claim, length: Fraction, *, open_: bool) -> bool:
     """Return whether the gap of separated bodies is shown to be at most a length, world units.
     open_: or less than that."""
+    pair = claim.pair
     if isinstance(pair, Pair) and not pair.convex:
         least = (length * (1 << pair.a.k)) ** 2
         return any(s < least or not open_ for *_, s in close_pairs(pair.a, pair.b, length))
-    step = pair.step(given(certificate.gap, "gap"))
+    step = pair.step(given(claim.certificate.gap, "gap"))
     squared = dot(step, step)
     return bool(squared < length**2 if open_ else squared <= length**2)
 
 
-def prove_apart(
-    certificate: Certificate, pair: AnyPair, bodies: tuple[Placed, Placed], least: Fraction
-) -> None:
+def prove_apart(claim: Claim, least: Fraction) -> None:
     """Rejects separated bodies with a narrower gap."""
+    pair = claim.pair
     if isinstance(pair, Pair) and not pair.convex:
-        check_holes(*bodies, least)
+        check_holes(least, *pair.placed)
         contacts_if_apart(pair.a, pair.b, Fraction(0), least)
         return
-    n = pair.step(given(certificate.gap, "gap"))
+    n = pair.step(given(claim.certificate.gap, "gap"))
     if pair.gap(n) <= 0 or pair.gap(n, least) < 0:
         raise Rejected("the gap is not shown to be as wide")
+
+
+def keeps(claim: Claim) -> bool | None:
+    """Return whether the gap keeps the clearance, whatever the touch band; None: not proven either
+    way."""
+    finding = claim.finding
+    if finding.exact_relation != "separated":
+        return False
+    if finding.relation == "separated":  # then that is a part of what was proven
+        return None if finding.undecided == "limit" else True
+    if is_within(claim, claim.clearance, open_=True):
+        return False
+    try:
+        prove_apart(claim, claim.clearance * (1 - EXACT_WIDTH) + claim.pair.closer)
+    except Rejected:
+        return None
+    return True
 
 
 def check_pieces(a: Placed, b: Placed) -> None:
@@ -114,12 +158,12 @@ def check_pieces(a: Placed, b: Placed) -> None:
             continue
         world, point = outer.world, inner.world.vertices[0]
         low, high = world.bounds
-        is_within = (low <= point).all() and (point <= high).all()
-        if is_within and abs(turns_around(world.vertices[pieces], point)) > MOST_AROUND:
+        is_inside = (low <= point).all() and (point <= high).all()
+        if is_inside and abs(turns_around(world.vertices[pieces], point)) > MOST_AROUND:
             raise Rejected(f"open pieces of {outer.id} surround {inner.id}")
 
 
-def check_holes(a: Placed, b: Placed, margin: Fraction) -> None:
+def check_holes(margin: Fraction, a: Placed, b: Placed) -> None:
     """Rejects bodies with holes unless the gap of their boxes is large enough: the fill of a hole
     may be anywhere near."""
     if (a.holed or b.holed) and max(box_gaps(a, b)) <= margin * (1 + EXACT_WIDTH):
@@ -127,57 +171,6 @@ def check_holes(a: Placed, b: Placed, margin: Fraction) -> None:
 
 
 CERTAINLY = 1 + 1e-12  # far more than the rounding of a difference
-
-
-def least_gap(finding: Finding, request: Request) -> Fraction:
-    """The least gap that a finding may have if it claims to keep its clearance. A gap that equals
-    the clearance up to rounding keeps it."""
-    if finding.relation != "separated" or finding.undecided == "limit":
-        return Fraction(0)
-    return Fraction(request.clearance or 0.0) * (1 - EXACT_WIDTH)
-
-
-def check_claims(
-    finding: Finding,
-    certificate: Certificate,
-    pair: AnyPair,
-    bodies: tuple[Placed, Placed],
-    request: Request,
-    tolerance: Fraction,
-    is_in_band: Callable[[Fraction], bool],
-    bounds: tuple[Fraction | None, Fraction | None],
-) -> None:
-    """Checks that the relation and the severity follow from the exact relation, which is proven.
-    is_in_band: whether an overlap is within such a band. bounds: proven upper bounds of depth and
-    thickness."""
-    relation, exact = finding.relation, finding.exact_relation
-    band, clearance = tolerance * (1 + EXACT_WIDTH), Fraction(request.clearance or 0.0)
-    near, within = relation == "near", relation == "touching" != exact
-    if exact == "separated" and (near or within):
-        if not is_within(certificate, pair, clearance if near else band, open_=near):
-            raise Rejected("the gap is wider than that")
-    elif within:
-        within = exact in OVERLAPS and is_in_band(band)
-    if exact is None or named(exact, within, not near) != relation:
-        raise Rejected(f"{relation!r} does not follow from {exact!r}")
-
-    def keeps(length: Fraction) -> bool | None:
-        """Whether the gap keeps the clearance, whatever the touch band; None: not proven either
-        way."""
-        if exact != "separated":
-            return False
-        if relation == "separated":  # then that is a part of what was proven
-            return None if finding.undecided == "limit" else True
-        if is_within(certificate, pair, length, open_=True):
-            return False
-        try:
-            least = length * (1 - EXACT_WIDTH) + curve_error(*bodies)
-            prove_apart(certificate, pair, bodies, least)
-        except Rejected:
-            return None
-        return True
-
-    check_severity(finding, request, bounds, keeps)
 
 
 def boxes_apart(a: Placed, b: Placed, request: Request) -> bool:

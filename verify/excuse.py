@@ -37,7 +37,6 @@ from typing import Any
 import numpy as np
 
 from satcheck.report.certificate import Excuse
-from satcheck.verify.bodies import Placed
 from satcheck.verify.cells import Cell, Sides, chosen, sides_of
 from satcheck.verify.exact import Floats, Point, Rejected, cross, dot, point, sub
 from satcheck.verify.figures import EXACT_WIDTH
@@ -51,11 +50,9 @@ from satcheck.verify.world import Exact, Indices, connected
 MOST_REACH = 4
 
 
-def is_explained(
-    excuse: Excuse, pair: Pair, bodies: tuple[Placed, Placed], tolerance: Fraction
-) -> None:
+def is_explained(excuse: Excuse, pair: Pair, tolerance: Fraction) -> None:
     """Rejects an excuse that does not explain the overlap. tolerance: of the touch band."""
-    off_a, off_b = (max(tolerance / 2, Fraction(body.surface_tolerance)) for body in bodies)
+    off_a, off_b = (max(tolerance / 2, Fraction(body.surface_tolerance)) for body in pair.placed)
     excuses = max(off_a, off_b) > tolerance / 2
     for ball, off, body in ((excuse.a, off_a, pair.a), (excuse.b, off_b, pair.b)):
         radius = Fraction(ball.radius)

@@ -8,24 +8,25 @@ from fractions import Fraction
 import numpy as np
 from msgspec import UnsetType
 
-from satcheck.report.certificate import Band, Certificate, Proof, SurfacesProof
+from satcheck.report.certificate import Proof, SurfacesProof
+from satcheck.report.judge import named
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
-from satcheck.verify.bodies import Placed, curve_error
+from satcheck.verify.bodies import Placed
 from satcheck.verify.depth import depth_is_at_least, inner_radius_exceeds
 from satcheck.verify.distances import (
-    check_claims,
+    Claim,
     check_distance,
     check_holes,
     check_pieces,
-    least_gap,
+    is_within,
     prove_apart,
     spanned,
 )
 from satcheck.verify.exact import Point, Rejected, dot, root
 from satcheck.verify.excuse import is_explained
 from satcheck.verify.figures import (
-    Rounding,
+    EXACT_WIDTH,
     check_figures,
     check_id,
     check_tolerance,
@@ -38,8 +39,9 @@ from satcheck.verify.in_plane import (
     leaves_gap_of_curves,
     reaching,
 )
-from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, axis, given, pair_of, vector
+from satcheck.verify.pairs import Pair, any_pair_of, axis, given, pair_of, vector
 from satcheck.verify.relations import prove, prove_free
+from satcheck.verify.severity import check_severity
 from satcheck.verify.thickness import at_most, holds_ball
 from satcheck.verify.world import stick_out
 
@@ -53,56 +55,44 @@ class Proven:
     distance: Fraction | None
 
 
-def _required_certificate(finding: Finding, a: Placed, b: Placed) -> Certificate:
+def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
+    """Rejects an unproven finding of two readable bodies."""
     if a.reason is not None or b.reason is not None:
         raise Rejected(a.reason or b.reason or "a body is missing")
     if finding.certificate is None:
         raise Rejected("it has no certificate")
-    return finding.certificate
-
-
-def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
-    """Rejects an unproven finding of two readable bodies."""
-    certificate = _required_certificate(finding, a, b)
     check_id(finding)
     tolerance = check_tolerance(finding, a, b, request)
     check_figures(finding, a, b)
-    pair = any_pair_of(a, b)
-    closer = curve_error(a, b)
-    hulls_apart = _prove_relation(finding, certificate, pair, (a, b), request, tolerance)
+    pair, rounding = any_pair_of(a, b), rounding_of(a, b)
+    claim = Claim(finding, finding.certificate, pair, request, tolerance, rounding)
+    shares_ball = _check_ball(claim)
+    hulls_apart = _prove_relation(claim, shares_ball)
     overlap = finding.exact_relation in OVERLAPS
-    mtv = check_mtv(finding, certificate, a, b)
-    depth = _check_depth(finding, certificate, pair, closer)
-    both_ends = depth or (_check_cover(finding, certificate, pair) and mtv)
-    rounding = rounding_of(a, b)
-    spans = spanned(finding, rounding, pair)
+    mtv = _check_mtv(claim)
+    depth = _check_depth(claim)
+    both_ends = depth or (_check_cover(claim) and mtv)
+    spans = spanned(claim)
     directed = spans or mtv or (shows_direction(finding, a, b) and not pair.convex)
     block = (a.endless or b.endless) and finding.exact_relation != "touching"
     error = None
-    if not (closer or a.holed or b.holed or block):  # the block of a half space may be off
-        error = _check_distance(finding, certificate, pair, rounding, spans)
+    if not (pair.closer or a.holed or b.holed or block):  # the block of a half space may be off
+        error = check_distance(claim, spans=spans)
     most = _most_depth(finding, depth=depth, mtv=mtv)
-    thickest = _check_thickness(finding, certificate, pair, closer, most)
+    thickest = _check_thickness(claim, most)
     if not overlap and not hulls_apart:
-        check_holes(a, b, max(tolerance, Fraction(request.clearance or 0.0)))
+        check_holes(max(tolerance, claim.clearance), a, b)
         check_pieces(a, b)
 
     slack = rounding.of(tolerance)
     if finding.relation == "near":
-        prove_apart(certificate, pair, (a, b), max(tolerance - slack, Fraction(0)))
+        prove_apart(claim, max(tolerance - slack, Fraction(0)))
     if finding.relation in OVERLAPS and most is not None and most + slack < tolerance:
         raise Rejected("the overlap is within the tolerance: the bodies touch")
-
-    def is_in_band(band: Fraction) -> bool:
-        if isinstance(certificate.band, UnsetType):
-            is_shallow = both_ends and finding.depth is not None and finding.depth <= band
-            return is_shallow or (mtv and _is_short(vector(finding.mtv or ()), band))
-        return _is_in_band(finding, certificate.band, pair, (a, b), band)
-
-    bounds = most, thickest
-    check_claims(finding, certificate, pair, (a, b), request, tolerance, is_in_band, bounds)
+    _check_name(claim, both_ends=both_ends, mtv=mtv)
+    check_severity(claim, most, thickest)
     thick = Fraction(finding.thickness or 0)
-    ball = isinstance(pair, Pair) and finding.thickness_bounds is not None and not closer
+    ball = isinstance(pair, Pair) and finding.thickness_bounds is not None and not pair.closer
     shown = {
         "undecided": finding.undecided != "limit",
         "distance": error is not None,
@@ -143,135 +133,115 @@ def _bounds_follow(finding: Finding, error: Fraction | None) -> bool:
     return low <= max(length - error, Fraction(0)) and length + error <= high
 
 
-def _prove_relation(
-    finding: Finding,
-    certificate: Certificate,
-    pair: AnyPair,
-    bodies: tuple[Placed, Placed],
-    request: Request,
-    tolerance: Fraction,
-) -> bool:
-    """Returns whether the relation also holds for the hulls; then neither body can lie inside the
-    other."""
-    relation, ends = finding.exact_relation, pair
-    closer = curve_error(*bodies)
-    if request.across is not None and isinstance(pair, Pair):
-        check_in_plane(finding, certificate, request.across)
-        worlds = reaching(relation, pair.a.world, pair.b.world, request.across)
-        ends = replace(pair_of(*bodies, *worlds), across=request.across)
-        if relation != "separated":
-            check_overlap_of_curves(relation, closer, ends, request.across)
-    by_surfaces = relation == "penetrating" and isinstance(certificate.relation, SurfacesProof)
-    if by_surfaces and _share_ball(finding, pair, request.across):
-        return False
-    beyond = tolerance if finding.relation == "separated" else Fraction(0)
-    least = least_gap(finding, request) + closer
-    return prove(relation, certificate.relation, ends, max(beyond, closer), least)
-
-
-def _share_ball(finding: Finding, pair: AnyPair, across: int | None) -> bool:
-    """Whether the ball of the thickness shows that two solids overlap, and their boxes that neither
-    holds the other. Rejects a ball that is not in both."""
-    ball = finding.ball
-    if ball is None or ball.radius <= 0 or not isinstance(pair, Pair):
-        return False
-    a, b = pair.a.world, pair.b.world
-    if not (a.solid and b.solid and stick_out(a, b, Fraction(0), across)):
+def _check_ball(claim: Claim) -> bool:
+    """Return whether the finding has a ball that two solids share. Rejects one that is not in
+    both."""
+    ball, pair = claim.finding.ball, claim.pair
+    if ball is None or not isinstance(pair, Pair):
         return False
     for body in (pair.a, pair.b):
         holds_ball(body, ball.centre, Fraction(ball.radius))
-    return True
+    return ball.radius > 0
 
 
-def _check_distance(
-    finding: Finding, certificate: Certificate, pair: AnyPair, rounding: Rounding, spans: bool
-) -> Fraction | None:
-    """Return how far the distance may be off; None: it is not proven."""
-    if isinstance(pair, Pair):
-        return check_distance(finding, certificate, pair)
-    if finding.exact_relation == "touching":
-        return Fraction(0)
-    return 2 * rounding.of(Fraction(finding.distance or 0.0)) if spans else None
+def _prove_relation(claim: Claim, shares_ball: bool) -> bool:
+    """Returns whether the relation also holds for the hulls; then neither body can lie inside the
+    other. shares_ball: then an overlap needs no other proof, if the boxes show that neither body
+    holds the other."""
+    relation, pair, across = claim.finding.exact_relation, claim.pair, claim.request.across
+    ends, proof = pair, claim.certificate.relation
+    if across is not None and isinstance(pair, Pair):
+        check_in_plane(claim.finding, claim.certificate, across)
+        (a, b), worlds = pair.placed, reaching(relation, pair.a.world, pair.b.world, across)
+        ends = replace(pair_of(a, b, *worlds), across=across)
+        if relation != "separated":
+            check_overlap_of_curves(relation, ends)
+    if relation == "penetrating" and isinstance(proof, SurfacesProof) and shares_ball:
+        assert isinstance(pair, Pair)
+        if stick_out(pair.a.world, pair.b.world, Fraction(0), across):
+            return False
+    beyond = claim.tolerance if claim.finding.relation == "separated" else Fraction(0)
+    return prove(relation, proof, ends, max(beyond, pair.closer), claim.least_gap + pair.closer)
 
 
-def _check_depth(
-    finding: Finding, certificate: Certificate, pair: AnyPair, closer: Fraction
-) -> bool:
+def _check_depth(claim: Claim) -> bool:
     """Checks the interval of the depth: a ball in the Minkowski difference proves the lower bound,
     an axis the upper bound."""
-    bounds, proof = finding.depth_bounds, certificate.depth
+    bounds, proof, pair = claim.finding.depth_bounds, claim.certificate.depth, claim.pair
     if bounds is None or isinstance(proof, UnsetType):
         return False
     low, high = map(Fraction, bounds)
     if not (isinstance(pair, Pair) and pair.convex):
         raise Rejected("a depth is certified for convex meshes only")
     inner_radius_exceeds(proof.lower, pair.a, pair.b, low)
-    if pair.gap(axis(proof.upper), closer - high) < 0:
+    if pair.gap(axis(proof.upper), pair.closer - high) < 0:
         raise Rejected("along the axis the bodies overlap by more than the depth")
     return True
 
 
-def _check_cover(finding: Finding, certificate: Certificate, pair: AnyPair) -> bool:
+def _check_cover(claim: Claim) -> bool:
     """Checks the lower bound of the depth of bodies that are not both convex, if it is
     certified."""
-    if isinstance(certificate.cover, UnsetType):
+    bounds, cover, pair = claim.finding.depth_bounds, claim.certificate.cover, claim.pair
+    if isinstance(cover, UnsetType):
         return False
-    if finding.depth_bounds is None or not isinstance(pair, Pair):
+    if bounds is None or not isinstance(pair, Pair):
         raise Rejected("a cover, and no depth of meshes")
-    depth_is_at_least(certificate.cover, pair.a, pair.b, finding.depth_bounds[0])
+    depth_is_at_least(cover, pair.a, pair.b, bounds[0])
     return True
 
 
-def _check_thickness(
-    finding: Finding,
-    certificate: Certificate,
-    pair: AnyPair,
-    closer: Fraction,
-    depth: Fraction | None,
-) -> Fraction | None:
-    """An upper bound of the thickness, as far as one is proven. Rejects a ball that is not in both
-    bodies. depth: a bound of the depth; no overlap is thicker than it is deep. The prisms of a
-    check in a plane are higher than wide: the largest ball in both has the diameter of the largest
-    disc. Of curves nothing is proven."""
-    cells = certificate.thickness
-    if finding.thickness is None or closer or not isinstance(pair, Pair):
-        if not isinstance(cells, UnsetType):
-            raise Rejected("cells, and no thickness of polyhedra")
-        return depth
-    if finding.ball is not None:
-        for body in (pair.a, pair.b):
-            holds_ball(body, finding.ball.centre, Fraction(finding.ball.radius))
+def _check_thickness(claim: Claim, depth: Fraction | None) -> Fraction | None:
+    """An upper bound of the thickness, as far as one is proven. depth: a bound of the depth; no
+    overlap is thicker than it is deep. The prisms of a check in a plane are higher than wide: the
+    largest ball in both has the diameter of the largest disc. Of curves nothing is proven."""
+    finding, cells, pair = claim.finding, claim.certificate.thickness, claim.pair
     if isinstance(cells, UnsetType):
         return depth
+    if finding.thickness is None or pair.closer or not isinstance(pair, Pair):
+        raise Rejected("cells, and no thickness of polyhedra")
     thickness = Fraction(finding.thickness)
     at_most(cells, pair.a, pair.b, thickness / 2, (Fraction(0), Fraction(0)))
     return thickness if depth is None else min(thickness, depth)
 
 
-def _is_in_band(
-    finding: Finding,
-    proof: Band,
-    pair: AnyPair,
-    bodies: tuple[Placed, Placed],
-    band: Fraction,
-) -> bool:
-    """Return whether a way out of the overlap is within the tolerance, or surfaces that may be off
+def _check_name(claim: Claim, *, both_ends: bool, mtv: bool) -> None:
+    """Rejects a relation that does not follow from the exact one, which is proven. both_ends, mtv:
+    whether the depth is, and the way out."""
+    relation, exact = claim.finding.relation, claim.finding.exact_relation
+    band = claim.tolerance * (1 + EXACT_WIDTH)
+    near, within = relation == "near", relation == "touching" != exact
+    if exact == "separated" and (near or within):
+        if not is_within(claim, claim.clearance if near else band, open_=near):
+            raise Rejected("the gap is wider than that")
+    elif within:
+        within = exact in OVERLAPS and _is_in_band(claim, band, both_ends=both_ends, mtv=mtv)
+    if exact is None or named(exact, within, not near) != relation:
+        raise Rejected(f"{relation!r} does not follow from {exact!r}")
+
+
+def _is_in_band(claim: Claim, band: Fraction, *, both_ends: bool, mtv: bool) -> bool:
+    """Return whether a way out of the overlap is within the touch band, or surfaces that may be off
     explain it."""
+    finding, proof, pair = claim.finding, claim.certificate.band, claim.pair
+    if isinstance(proof, UnsetType):
+        is_shallow = both_ends and finding.depth is not None and finding.depth <= band
+        return is_shallow or (mtv and _is_short(vector(finding.mtv or ()), band))
     if not isinstance(proof.axis, UnsetType):
         if pair.convex and pair.gap(axis(proof.axis), -band) >= 0:
             return True
         raise Rejected("the bodies overlap by more than the tolerance")
     if not isinstance(proof.excuse, UnsetType):
-        if curve_error(*bodies) or not isinstance(pair, Pair):
+        if pair.closer or not isinstance(pair, Pair):
             raise Rejected("an excuse of polygons, and not of their curves")
-        is_explained(proof.excuse, pair, bodies, Fraction(finding.tolerance or 0.0))
+        is_explained(proof.excuse, pair, Fraction(finding.tolerance or 0.0))
         return True
     move = vector(given(proof.move, "move"))
     if not _is_short(move, band):
         return False
     if isinstance(proof.free, UnsetType):
         raise Rejected("the certificate has no 'free'")
-    prove_way_out(move, proof.free, *bodies)
+    prove_way_out(move, proof.free, *pair.placed)
     return True
 
 
@@ -279,19 +249,20 @@ def _is_short(move: Point, band: Fraction) -> bool:
     return bool(dot(move, move) <= band * band)
 
 
-def check_mtv(finding: Finding, certificate: Certificate, a: Placed, b: Placed) -> bool:
+def _check_mtv(claim: Claim) -> bool:
     """A, moved by the MTV with one rounding of each coordinate, has no common interior with B.
 
     `check_figures` has checked that an overlap has the MTV, and that it is as long as the depth.
     Returns False if the finding does not claim this, or if it is not certified.
     """
+    finding, proof = claim.finding, claim.certificate.mtv
     if finding.mtv_verified is not True or finding.mtv is None:
         return False
-    if isinstance(certificate.mtv, UnsetType):
-        if curve_error(a, b):
+    if isinstance(proof, UnsetType):
+        if claim.pair.closer:
             return False
         raise Rejected("the certificate has no 'mtv'")
-    prove_way_out(vector(finding.mtv), certificate.mtv, a, b)
+    prove_way_out(vector(finding.mtv), proof, *claim.pair.placed)
     return True
 
 
@@ -301,8 +272,8 @@ def prove_way_out(move: Point, proof: Proof, a: Placed, b: Placed) -> None:
         raise Rejected("a translation is finite")
     moved = a.moved(offset)
     if isinstance(proof, SurfacesProof):
-        check_holes(moved, b, Fraction(0))
+        check_holes(Fraction(0), moved, b)
     pair = any_pair_of(moved, b)
     prove_free(proof, pair)
-    if not leaves_gap_of_curves(proof, curve_error(a, b), pair):
+    if not leaves_gap_of_curves(proof, pair):
         raise Rejected("the way out is shown of polygons alone, not of the curves")

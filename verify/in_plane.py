@@ -12,8 +12,6 @@ around the polygon whose distance from it is at most the deviation of the body.
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 from msgspec import UnsetType
 
@@ -33,16 +31,15 @@ from satcheck.verify.world import World, stick_out
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}
 
 
-def check_overlap_of_curves(
-    relation: Relation | None, closer: Fraction, pair: Pair, across: int
-) -> None:
-    """Rejects an exact relation of bodies that meet if it is proven of the polygons only. closer:
-    see `curve_error`. pair: with heights that suit the relation.
+def check_overlap_of_curves(relation: Relation | None, pair: Pair) -> None:
+    """Rejects an exact relation of bodies that meet if it is proven of the polygons only. pair:
+    with heights that suit the relation.
 
     A body lies within another if its polygon does, with more room than the deviation. Bodies
     overlap if their polygons do. Neither body contains the other if the box of each sticks out of
     the other by more than the deviation.
     """
+    closer = pair.closer
     if not closer:
         return
     if relation in ("contains", "inside"):
@@ -50,12 +47,13 @@ def check_overlap_of_curves(
         return
     if relation != "penetrating":
         raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
-    if not stick_out(pair.a.world, pair.b.world, closer, across):
+    if not stick_out(pair.a.world, pair.b.world, closer, pair.across):
         raise Rejected("one body may hold the other, by what its curve is off its polygon")
 
 
-def leaves_gap_of_curves(proof: Proof, closer: Fraction, pair: AnyPair) -> bool:
+def leaves_gap_of_curves(proof: Proof, pair: AnyPair) -> bool:
     """Return whether the polygons are as far apart along the axis as the curves may be off them."""
+    closer = pair.closer
     return not closer or (isinstance(proof, AxisProof) and pair.gap(axis(proof.axis), closer) > 0)
 
 

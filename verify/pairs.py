@@ -12,7 +12,7 @@ from msgspec import UnsetType
 
 from satcheck.report.certificate import Ends, OnBody
 from satcheck.report.certificate import Exact as Number
-from satcheck.verify.bodies import Placed
+from satcheck.verify.bodies import Placed, curve_error
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Point, Reach, Rejected, dot, point, sign_of, sub
 from satcheck.verify.world import Exact, World
@@ -81,6 +81,11 @@ class AnyPair:
         """Whether both are exactly convex in their files. Then a mesh counts as the hull of its
         world vertices."""
         return bool(self.placed) and all(body.convex for body in self.placed)
+
+    @property
+    def closer(self) -> Fraction:
+        """The `curve_error` of the bodies."""
+        return curve_error(*self.placed)
 
     def gap(self, n: Point, length: Fraction = Fraction(0)) -> int:
         """The sign of the gap along n, from A to B, less a length: over 0 the axis separates."""

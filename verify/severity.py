@@ -7,7 +7,7 @@ follows from the figures of the finding. Volumes are not certified.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from math import inf
 
@@ -23,25 +23,21 @@ from satcheck.report.report import (
     Report,
     Summary,
 )
-from satcheck.report.request import Request
 from satcheck.report.verdict import fails, summarise
+from satcheck.verify.distances import Claim, keeps
 from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import EXACT_WIDTH
 
 WIDER = 1 + EXACT_WIDTH  # the share of a limit that rounding is granted
 
 
-def check_severity(
-    finding: Finding,
-    request: Request,
-    most: tuple[Fraction | None, Fraction | None],
-    keeps: Callable[[Fraction], bool | None],
-) -> None:
+def check_severity(claim: Claim, *most: Fraction | None) -> None:
     """Rejects a severity, a rule or an `undecided` that does not follow. most: proven upper bounds
-    of depth and thickness. keeps: whether the gap has at least this length; None: undecided."""
+    of depth and thickness."""
+    finding, request = claim.finding, claim.request
     kept, overlap = None, finding.relation in OVERLAPS
     if request.clearance and not overlap and finding.relation != "near":
-        kept = keeps(Fraction(request.clearance))
+        kept = keeps(claim)
     judgement = judged(finding, replace(request, severity=None), (0.0, inf), kept)
     if overlap and judgement.severity == "note":
         limits = request.max_depth, request.max_thickness, request.max_volume

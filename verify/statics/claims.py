@@ -12,27 +12,29 @@ from satcheck.report.statics import (
     BodyContact,
     BodyIsland,
     ContactPoint,
-    FirstMotion,
     Statics,
     SupportedBody,
     SupportFinding,
 )
 from satcheck.report.verdict import severity_of_answer
 from satcheck.report.verification import CheckedSupport
+from satcheck.scene.statics import QUESTIONS
 from satcheck.verify.bodies import Placed
-from satcheck.verify.exact import NotCertified, Point, Rejected, sub
+from satcheck.verify.exact import NotCertified, Rejected, sub
 from satcheck.verify.pairs import vector
 from satcheck.verify.statics.contacts import ROUNDING, Contacts, check_apart
-from satcheck.verify.statics.sums import (
+from satcheck.verify.statics.terms import body_terms, checked, once
+from satcheck.verify.statics.weights import (
     Push,
+    Weight,
     check_balance,
     check_in_cone,
     check_power,
+    covers_once,
     resistance,
     velocity_at,
+    weight_of,
 )
-from satcheck.verify.statics.terms import Terms, checked, once
-from satcheck.verify.statics.weights import Weight, covers_once
 
 SAME_WEIGHT = 1e-9  # relative
 FASTEST = 1e100  # of a motion, whose squares are floats
@@ -44,13 +46,11 @@ class Claims:
     fit the bodies or its own rules."""
 
     def __init__(self, statics: Statics, bodies: Mapping[str, Placed]) -> None:
-        self.statics, self.terms = statics, Terms(statics, bodies)
-        self.bodies = {
-            id_: body for id_, body in bodies.items() if not self.terms.value(id_, "region")
-        }
+        self.statics, self.terms = statics, body_terms(statics.rules, bodies)
+        regions = {id_ for id_, terms in self.terms.items() if terms.value("region")}
+        self.bodies = {id_: body for id_, body in bodies.items() if id_ not in regions}
         self.contacts = Contacts(self.bodies, statics.tolerance)
         self.down = vector(statics.gravity)
-        self.usable = {id_: body for id_, body in self.bodies.items() if body.claims}
         self.stated = {body.id: body for body in statics.bodies}
         self._balanced = once(self._check_island)
         self._falling = once(self._check_motion)
@@ -65,9 +65,11 @@ class Claims:
     def _check_section(self) -> None:
         """Rejects questions, fixed bodies, weights and frictions that do not follow."""
         answered = sorted((f.body, f.question) for f in self.statics.findings)
-        if sorted(self.terms.asked()) != answered:
+        asked = [(id_, q) for id_, own in self.terms.items() for q in QUESTIONS if own.asks(q)]
+        if sorted(asked) != answered:
             raise Rejected("the questions are not those that rules ask")
-        if set(self.stated) != set(self.usable) or len(self.stated) < len(self.statics.bodies):
+        usable = {id_ for id_, body in self.bodies.items() if body.claims}
+        if set(self.stated) != usable or len(self.stated) < len(self.statics.bodies):
             raise Rejected("the bodies of the support are not those of the report")
         if abs(float(sum(c * c for c in self.down)) - 1.0) > 1e-12:
             raise Rejected("gravity is a unit vector")
@@ -76,19 +78,28 @@ class Claims:
         for contact in self.statics.contacts:
             if contact.a not in self.stated or contact.b not in self.stated:
                 raise Rejected("a contact of a body that the report does not have")
-            if contact.friction != self.terms.friction(contact.a, contact.b):
+            if contact.friction != self._friction(contact.a, contact.b):
                 raise Rejected("the friction of a contact is not that of the rules")
 
+    def _friction(self, a: str, b: str) -> float:
+        """Of a contact: the smaller one of both bodies."""
+        own = (self.terms[name].value("friction") for name in (a, b))
+        return min([value for value in own if value is not None], default=self.statics.friction)
+
+    def _weight(self, id_: str) -> Weight:
+        """Rejects a body without a known volume."""
+        terms = self.terms[id_]
+        return weight_of(self.bodies[id_], terms.value("mass"), terms.value("density"))
+
     def _check_body(self, body: SupportedBody) -> None:
-        static = self.bodies[body.id].static
-        mounted = bool(self.terms.value(body.id, "mounted"))
-        if body.fixed != ("static" if static else "mounted" if mounted else None):
+        mounted = "mounted" if self.terms[body.id].value("mounted") else None
+        if body.fixed != ("static" if self.bodies[body.id].static else mounted):
             raise Rejected(f"{body.id}: whether it is fixed does not follow from the rules")
         if (body.mass is None) is not (body.centre is None):
             raise Rejected(f"{body.id}: a mass has a centre")
         if body.mass is None or body.centre is None:
             return
-        weight, size = self.terms.weight(body.id), self.contacts.size(body.id)
+        weight, size = self._weight(body.id), self.contacts.size(body.id)
         if abs(float(weight.mass) - body.mass) > SAME_WEIGHT * body.mass:
             raise Rejected(f"{body.id}: its mass is {float(weight.mass):.9g}")
         off = max(abs(float(c) - s) for c, s in zip(weight.centre, body.centre, strict=True))
@@ -96,12 +107,13 @@ class Claims:
             raise Rejected(f"{body.id}: its centre of mass is elsewhere")
 
     def _check(self, finding: SupportFinding) -> None:
-        if finding.rule != self.terms.rule(finding.body, finding.question):
+        terms = self.terms[finding.body]
+        if finding.rule != terms.rules[finding.question].name:
             raise Rejected("another rule asks this")
         body = self.stated.get(finding.body)
         doubted = finding.answer == "yes" and self._is_doubted(finding, body)
-        own = self.terms.value(finding.body, "severity")
-        if not doubted and finding.severity != severity_of_answer(finding.answer, own):
+        follows = severity_of_answer(finding.answer, terms.value("severity"))
+        if not doubted and finding.severity != follows:
             raise Rejected("the severity does not follow from the answer and the rules")
         if finding.answer == "open":
             return
@@ -149,14 +161,14 @@ class Claims:
                 for name, sign in ((contact.a, 1), (contact.b, -1)):
                     if name in members:
                         x, y, z = (sign * c for c in vector(point.force))
-                        pushes[name].append(Push(vector(point.at), (x, y, z)))
+                        pushes[name].append((vector(point.at), (x, y, z)))
                     elif self.stated[name].fixed is None:
                         raise Rejected(f"{name} holds a body, and is not in its island")
         for name, own in pushes.items():
             if not covers_once(self.bodies[name]):
                 raise NotCertified(f"{name}: its parts may overlap, so its mass is not certified")
             size = Fraction(self.contacts.size(name))
-            check_balance(name, self.terms.weight(name), self.down, size, own)
+            check_balance(name, self._weight(name), self.down, size, own)
             for other in self.contacts.near(name):
                 if self.bodies[other].bounds is not None:
                     self.contacts.check_shallow(name, other)
@@ -165,7 +177,7 @@ class Claims:
         place = self.contacts.at(contact, point)
         if strict and not self.contacts.is_strict(contact.a, contact.b, place):
             raise Rejected(f"{contact.a} and {contact.b}: a force needs the tolerance")
-        friction = Fraction(self.terms.friction(contact.a, contact.b))
+        friction = Fraction(self._friction(contact.a, contact.b))
         check_in_cone(vector(point.force or ()), vector(place.normal.tolist()), friction)
 
     def _check_moves(self, body: SupportedBody) -> None:
@@ -191,41 +203,24 @@ class Claims:
     def _check_motion(self, together: frozenset[str]) -> None:
         """That gravity does work along it, and that no contact resists."""
         motions = {
-            name: motion
+            name: (motion, self._weight(name))
             for name in sorted(together)
             if (motion := self.stated[name].motion) is not None
         }
-        weights = {name: self.terms.weight(name) for name in motions}
         worst = 0.0
-        for name, motion in motions.items():
+        for name, (motion, _) in motions.items():
             if max(map(abs, (*motion.velocity, *motion.angular))) > FASTEST:
                 raise Rejected(f"{name}: a motion this fast cannot be checked")
             for other in self.contacts.near(name):
-                if not (other in motions and other < name):
-                    worst = max(worst, self._resistance(name, other, motions, weights))
-                    self.contacts.check_shallow(name, other)
-        check_power(motions, weights, self.down, worst)
-
-    def _resistance(
-        self,
-        name: str,
-        other: str,
-        motions: Mapping[str, FirstMotion],
-        weights: Mapping[str, Weight],
-    ) -> float:
-        """The largest one of their contacts."""
-        friction = self.terms.friction(name, other)
-        worst = 0.0
-        for place in self.contacts.between(name, other):
-            at = vector(place.at.tolist())
-            own = velocity_at(motions.get(name), self._centre(name, weights), at)
-            against = velocity_at(motions.get(other), self._centre(other, weights), at)
-            worst = max(worst, resistance(place, friction, sub(own, against)))
-        return worst
-
-    def _centre(self, name: str, weights: Mapping[str, Weight]) -> Point | None:
-        weight = weights.get(name)
-        return None if weight is None else weight.centre
+                if other in motions and other < name:
+                    continue
+                friction = self._friction(name, other)
+                for place in self.contacts.between(name, other):
+                    at = vector(place.at.tolist())
+                    own, against = (velocity_at(motions.get(n), at) for n in (name, other))
+                    worst = max(worst, resistance(place, friction, sub(own, against)))
+                self.contacts.check_shallow(name, other)
+        check_power(motions.values(), self.down, worst)
 
     def _check_afloat(self) -> None:
         """All bodies that float, together: none of them touches another one."""

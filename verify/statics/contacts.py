@@ -26,39 +26,32 @@ from satcheck.verify.statics.places import (
 )
 from satcheck.verify.statics.terms import once
 from satcheck.verify.statics.weights import ball
-from satcheck.verify.world import Exact, World
+from satcheck.verify.world import Exact
 
 
 def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
     """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
     may be negative: then the bodies may overlap by less than that."""
-    if max(box_gaps(a, b)) > Fraction(tolerance):
+    least = Fraction(tolerance)
+    if max(box_gaps(a, b)) > least:
         return
     if a.world is not None and b.world is not None:
         pair = pair_of(a, b, a.world, b.world)
-        prove("separated", SurfacesProof(), pair, Fraction(tolerance), Fraction(0))
-    elif a.world is not None:
-        _ball_apart(b, a.world, tolerance)
-    elif b.world is not None:
-        _ball_apart(a, b.world, tolerance)
-    else:
-        _balls_apart(a, b, tolerance)
-
-
-def _ball_apart(round_: Placed, world: World, tolerance: float) -> None:
+        prove("separated", SurfacesProof(), pair, least, Fraction(0))
+        return
+    round_, other = (b, a) if b.world is None else (a, b)
     centre, radius = ball(round_)
-    mesh = Exact(world, world.lattice)
-    middle = point(Fraction(c) * (1 << mesh.k) for c in centre)
-    reach = max(Fraction(radius) + Fraction(tolerance), Fraction(0))
-    if comes_within(mesh, middle, reach, open_=False):
-        raise Rejected("bodies that should be apart are within the tolerance")
-    if world.solid and mesh.winding(middle) != 0:
-        raise Rejected("a body that should be apart lies in another")
-
-
-def _balls_apart(a: Placed, b: Placed, tolerance: float) -> None:
-    (p, _), (q, _) = ball(a), ball(b)
-    if any_pair_of(a, b).gap(sub(point(q), point(p)), Fraction(tolerance)) <= 0:
+    if other.world is None:
+        along = sub(point(centre), point(ball(other)[0]))
+        is_apart = any_pair_of(other, round_).gap(along, least) > 0
+    else:
+        mesh = Exact(other.world, other.world.lattice)
+        middle = point(Fraction(c) * (1 << mesh.k) for c in centre)
+        reach = max(Fraction(radius) + least, Fraction(0))
+        is_apart = not comes_within(mesh, middle, reach, open_=False)
+        if is_apart and mesh.world.solid and mesh.winding(middle) != 0:
+            raise Rejected("a body that should be apart lies in another")
+    if not is_apart:
         raise Rejected("bodies that should be apart are within the tolerance")
 
 
@@ -119,9 +112,7 @@ class Contacts:
             centre, radius = ball(one)
             return places_of_ball(np.array(centre), radius, of_b, tolerance, rounding)
         if of_a is not None:
-            centre, radius = ball(other)
-            places = places_of_ball(np.array(centre), radius, of_a, tolerance, rounding)
-            return [place.turned for place in places]
+            return [place.turned for place in self._found(b, a)]
         (p, r), (q, s) = ball(one), ball(other)
         return place_of_balls(np.array(p), r, np.array(q), s, tolerance)
 

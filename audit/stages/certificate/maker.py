@@ -21,7 +21,6 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.report import OVERLAPS, Finding
-from satcheck.verify.bodies import curve_error
 from satcheck.verify.exact import Rejected
 from satcheck.verify.pairs import AnyPair, any_pair_of, vector
 
@@ -83,7 +82,7 @@ class Maker:
         self.pair, self.finding = pair, finding
         self.bodies = pair.a.checked(), pair.b.checked()
         self.placed = any_pair_of(*self.bodies)
-        self.closer = curve_error(*self.bodies)
+        self.closer = self.placed.closer
 
     def relation(self) -> Proof | None:
         raise NotImplementedError
