@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -152,7 +151,7 @@ class Bodies:
         self._root, self._allow_open = root, allow_open
         permitted = Permitted(anywhere=allow_outside)
         self._files = MeshFiles(ReadLimits(permitted=permitted, options=reading))
-        self._shapes: dict[tuple[str, str | None, bool], Shape] = {}
+        self._shapes: dict[tuple[str, object, bool], Shape] = {}
 
     def place_all(self, entries: Sequence[BodyReport], plane: Plane | None) -> list[Placed]:
         """The report's bodies; with --planar, the prisms over their outlines. If a file is missing
@@ -164,30 +163,32 @@ class Bodies:
                 found[entry.id] = self._find(entry)
             except Rejected as why:
                 placed[entry.id] = _lost(entry, why)
-        outlined, prisms = None if plane is None else found, {}
+        prisms: dict[str, MeshFile] | None = None
         if plane is not None:
             bodies = tuple(body for body, _ in found.values())
             flat = flat_scene(Scene("", None, bodies), plane, allow_open=self._allow_open)
             prisms = {body.id: body.file for body in flat.bodies}
-        of_found = [entry for entry in entries if entry.id in found]
-        for entry in of_found:
+
+        def place(entry: BodyReport) -> Placed:
             body, shape = found[entry.id]
-            try:
-                if outlined is None:
-                    placed[entry.id] = _place(body, shape, body.transform, entry)
-                elif entry.id in prisms:
-                    placed[entry.id] = _place(body, shape_of(prisms[entry.id]), None, entry)
-                else:
-                    raise Rejected("it has no outline in the plane")
-            except Rejected as why:
-                placed[entry.id] = _lost(entry, why)
-        for entry in of_found:
-            body, _ = found[entry.id]
-            if isinstance(body.shape, HalfSpace):
-                try:
-                    _require_reach(body, placed, outlined)
-                except Rejected as why:
-                    placed[entry.id] = _lost(entry, why)
+            if prisms is None:
+                return _place(body, shape, body.transform, entry)
+            if entry.id not in prisms:
+                raise Rejected("it has no outline in the plane")
+            return _place(body, shape_of(prisms[entry.id]), None, entry)
+
+        def reaching(entry: BodyReport) -> Placed:
+            if isinstance(found[entry.id][0].shape, HalfSpace):
+                _require_reach(entry.id, placed, found, in_space=plane is None)
+            return placed[entry.id]
+
+        for step in (place, reaching):
+            for entry in entries:
+                if entry.id in found:
+                    try:
+                        placed[entry.id] = step(entry)
+                    except Rejected as why:
+                        placed[entry.id] = _lost(entry, why)
         return [placed[entry.id] for entry in entries]
 
     def _find(self, entry: BodyReport) -> tuple[Body, Shape]:
@@ -215,20 +216,16 @@ class Bodies:
             if isinstance(mesh, Refused):
                 absent = mesh.code == "file-not-found"
                 raise Missing("its file is not there") if absent else Rejected(str(mesh))
-            key, make = (
-                (entry.file, mesh.part, entry.open),
-                partial(shape_of, mesh, allow_open=self._allow_open or entry.open),
-            )
+            key: tuple[str, object, bool] = (entry.file, mesh.part, entry.open)
+            if key not in self._shapes:
+                allow_open = self._allow_open or entry.open
+                self._shapes[key] = shape_of(mesh, allow_open=allow_open)
         elif entry.path is not None:
             raise Rejected("a shape is no node of a file")
         else:
-            values = to_builtins(entry.shape)
-            key, make = (
-                (entry.file, json.dumps(values), False),
-                partial(_primitive, entry.file, values),
-            )
-        if key not in self._shapes:
-            self._shapes[key] = make()
+            key = entry.file, entry.shape, False
+            if key not in self._shapes:
+                self._shapes[key] = _primitive(entry.file, to_builtins(entry.shape))
         return self._shapes[key]
 
 
@@ -242,19 +239,21 @@ def _primitive(file: str, values: Any) -> Shape:
 
 
 def _require_reach(
-    floor: Body,
+    floor: str,
     placed: Mapping[str, Placed],
-    outlined: Mapping[str, tuple[Body, Shape]] | None,
+    found: Mapping[str, tuple[Body, Shape]],
+    *,
+    in_space: bool,
 ) -> None:
-    """Rejects a half space whose block is too small for another body. outlined: the bodies in
-    space, if those of `placed` are prisms, which are taller than any body."""
+    """Rejects a half space whose block is too small for another body. in_space: else the bodies of
+    `placed` are prisms, which are taller than any body."""
     for other in placed.values():
         bounds = other.bounds
-        if outlined is not None and other.id in outlined:
-            bounds = outlined[other.id][0].world_mesh().bounds  # type: ignore[assignment]
-        if other.id != floor.id and bounds is not None and not other.endless:
+        if not in_space and other.id in found:
+            bounds = found[other.id][0].world_mesh().bounds  # type: ignore[assignment]
+        if other.id != floor and bounds is not None and not other.endless:
             low, high = (tuple(map(float, corner)) for corner in bounds)
-            if not holds(floor, (low, high)):  # type: ignore[arg-type]
+            if not holds(found[floor][0], (low, high)):  # type: ignore[arg-type]
                 raise Rejected(f"{other.id} lies beyond the reach of the half space")
 
 

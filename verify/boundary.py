@@ -20,7 +20,7 @@ from functools import cache, cmp_to_key, partial
 from itertools import pairwise, product
 from typing import Any
 
-from satcheck.verify.cells import own_sides
+from satcheck.verify.cells import Contacts, sides_of
 from satcheck.verify.exact import (
     Point,
     Rejected,
@@ -40,14 +40,15 @@ def boundary_of(body: Exact, t: int) -> list[Piece]:
     """Closed triangles that make up the boundary part of a triangle."""
     if not body.world.solid:
         return [body.corners(t)]
-    pieces: list[Piece] = []
-    for _, cell, (front, back) in own_sides(body, [t]):
-        if not (front and back):
-            pieces += [(cell[0], p, q) for p, q in pairwise(cell[1:])]
-    return pieces
+    return [
+        (sides.cell[0], p, q)
+        for sides in sides_of([t], body)
+        if sides.front != (True,) or sides.back != (True,)
+        for p, q in pairwise(sides.cell[1:])
+    ]
 
 
-def meet(a: Exact, b: Exact, contacts: list[tuple[int, int]], across: int | None = None) -> bool:
+def meet(a: Exact, b: Exact, contacts: Contacts, across: int | None = None) -> bool:
     """Whether one of these pairs of triangles has a common point of both boundaries. across: of
     prisms of one height along this axis, a point between their ends."""
     of_a, of_b = (cache(partial(boundary_of, body)) for body in (a, b))
@@ -88,7 +89,7 @@ SHARES = (Fraction(1, 2), Fraction(2, 5), Fraction(3, 7), Fraction(5, 11), Fract
 CROSSING = 4  # changes around the line: A, B, A, B
 
 
-def no_crossing(a: Exact, b: Exact, contacts: list[tuple[int, int]]) -> None:
+def no_crossing(a: Exact, b: Exact, contacts: Contacts) -> None:
     """Rejects surfaces that cross, or lie in each other. contacts: all pairs that meet."""
     of_a: dict[int, list[int]] = {}
     of_b: dict[int, list[int]] = {}

@@ -38,6 +38,7 @@ from satcheck.verify.world import Corners, Exact
 
 Cell = Sequence[Vector]  # a convex polygon, in the plane of its triangle
 Segment = tuple[Point, Point]
+Contacts = Sequence[tuple[int, int]]
 ATTEMPTS = 8  # points of a cell, until one lies on no triangle of another plane
 MOST_CELLS = 200_000
 BLOCK = 256  # triangles whose own partners are looked up at once
@@ -46,45 +47,37 @@ FIRST = 4  # triangles of each region, most of which show how it lies
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """The facts in front of a cell and behind it: (in A, in B). A surface that is not solid has no
-    inside."""
+    """A cell of a triangle, and whether its front and its back lie in each body. A surface that is
+    not solid has no inside."""
 
+    triangle: int
     cell: Cell
-    front: tuple[bool, bool]
-    back: tuple[bool, bool]
+    front: tuple[bool, ...]
+    back: tuple[bool, ...]
 
 
 def sides_of(
-    a: Exact, b: Exact, contacts: list[tuple[int, int]], triangles: list[int]
+    triangles: list[int], a: Exact, b: Exact | None = None, contacts: Contacts = ()
 ) -> Iterator[Sides]:
-    """Both sides of the cells that all they share with others cut these triangles of A into.
-    contacts: all pairs in which they meet B."""
-    partners: dict[int, list[int]] = {}
+    """Both sides of the cells that all they share with other triangles of A and B cut these
+    triangles of A into. contacts: all pairs in which they meet B."""
+    bodies = [a] if b is None else [a, b]
+    partners: dict[int, list[Corners]] = {}
     for s, t in contacts:
-        partners.setdefault(s, []).append(t)
+        if b is not None:
+            partners.setdefault(s, []).append(b.corners(t))
     total = 0
     for corners, own, t in _with_own_partners(a, triangles):
-        cells = _cells(corners, [b.corners(u) for u in partners.get(t, [])], own)
+        cells = _cells(corners, partners.get(t, []), own)
         total += len(cells)
         if total > MOST_CELLS:
             raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
         for cell in cells:
-            in_a, in_b = look(normal_of(corners), cell, (a, b))
-            yield Sides(cell, (in_a[0], in_b[0]), (in_a[1], in_b[1]))
+            fronts, backs = zip(*look(normal_of(corners), cell, bodies), strict=True)
+            yield Sides(t, cell, fronts, backs)
 
 
-def own_sides(body: Exact, triangles: list[int]) -> Iterator[tuple[int, Cell, tuple[bool, bool]]]:
-    """The cells that their own surface cuts these triangles into, each with whether material lies
-    in front and behind."""
-    for corners, own, t in _with_own_partners(body, triangles):
-        for cell in _cells(corners, own):
-            [sides] = look(normal_of(corners), cell, [body])
-            yield t, cell, sides
-
-
-def chosen(
-    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
-) -> list[int]:
+def chosen(a: Exact, b: Exact, contacts: Contacts, wanted: Callable[[bool], bool]) -> list[int]:
     """The triangles of A that touch B, then a few of each region that B does not meet, and then the
     others. contacts: all pairs that meet. wanted: whether to include a region; its argument:
     whether it lies inside B."""
@@ -121,13 +114,14 @@ def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
         yield region.tolist(), int(a.world.triangles[region[0], 0])
 
 
-def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set[int]:
+def sheets_among(body: Exact, contacts: Contacts, side: int) -> set[int]:
     """The triangles in contact, on this side of each pair, that have a part without material on
     either side."""
     triangles = sorted({pair[side] for pair in contacts})
     if not body.world.solid:
         return set(triangles)
-    return {t for t, _, sides in own_sides(body, triangles) if sides == (False, False)}
+    beside = sides_of(triangles, body)
+    return {sides.triangle for sides in beside if not any(sides.front + sides.back)}
 
 
 def _with_own_partners(
@@ -213,8 +207,8 @@ def look(normal: Vector, cell: Cell, bodies: Sequence[Exact]) -> list[tuple[bool
         weights = [1 + (k * attempt) % 7 for k in range(1, len(cell) + 1)]
         share = Fraction(1, sum(weights))
         at = point(share * sum(map(mul, weights, places)) for places in zip(*cell, strict=True))
-        seen = [e.beside(at, normal) if e.world.solid else (0, 0) for e in bodies]
-        sides = [(both[0] != 0, both[1] != 0) for both in seen if both is not None]
+        seen = [body.beside(at, normal) for body in bodies]
+        sides = [both for both in seen if both is not None]
         if len(sides) == len(seen):
             return sides
     raise Rejected("every point tried of a piece of the contact lies on another triangle")

@@ -4,7 +4,9 @@ The certificate names a point of each convex body: the planes normal to the step
 that nothing is nearer. For other meshes every triangle that could be nearer is checked. The
 distance may be off by the last rounding of a figure, and by no more. For curved shapes the normal
 and the witness points of the finding are the proof, up to their own rounding. Of an open surface
-the fills of its holes may be nearer, and pieces of it may surround the other body.
+the fills of its holes may be nearer, and pieces of it may surround the other body. In a plane a
+polygon may replace a curve, within which it lies. A proof must then hold for every boundary around
+the polygon whose distance from it is at most the deviation of the body.
 """
 
 from __future__ import annotations
@@ -14,18 +16,19 @@ from fractions import Fraction
 
 from msgspec import UnsetType
 
-from satcheck.report.certificate import Certificate
+from satcheck.report.certificate import AxisProof, Certificate, Proof
 from satcheck.report.report import Finding
 from satcheck.report.request import Request
+from satcheck.report.values import Relation
 from satcheck.scene.inspect import MOST_AROUND
 from satcheck.verify.bodies import Placed, box_gaps, curve_error
 from satcheck.verify.boundary import contacts_if_apart
 from satcheck.verify.exact import Rejected, TooMany, dot
 from satcheck.verify.figures import EXACT_WIDTH, Rounding, default_tolerance
 from satcheck.verify.open_parts import turns_around
-from satcheck.verify.pairs import AnyPair, Pair, given, vector
+from satcheck.verify.pairs import AnyPair, Pair, axis, given, vector
 from satcheck.verify.surfaces import close_pairs
-from satcheck.verify.world import Exact
+from satcheck.verify.world import Exact, stick_out
 
 # Beyond this many pairs of triangles with near boxes there is no certificate.
 MOST_NEAR = 2_000_000
@@ -107,6 +110,32 @@ def nothing_nearer(a: Exact, b: Exact, length: Fraction, most: Fraction) -> bool
         if length > 0 and squared < least:
             raise Rejected("triangles of the bodies are closer than the distance")
     return found
+
+
+def check_overlap_of_curves(relation: Relation | None, pair: Pair) -> None:
+    """Rejects an exact relation of bodies that meet if it is proven of the polygons only. pair:
+    with heights that suit the relation.
+
+    A body lies within another if its polygon does, with more room than the deviation. Bodies
+    overlap if their polygons do. Neither body contains the other if the box of each sticks out of
+    the other by more than the deviation.
+    """
+    closer = pair.closer
+    if not closer:
+        return
+    if relation in ("contains", "inside"):
+        nothing_nearer(pair.a, pair.b, closer, closer)
+        return
+    if relation != "penetrating":
+        raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
+    if not stick_out(pair.a.world, pair.b.world, closer, pair.across):
+        raise Rejected("one body may hold the other, by what its curve is off its polygon")
+
+
+def leaves_gap_of_curves(proof: Proof, pair: AnyPair) -> bool:
+    """Return whether the polygons are as far apart along the axis as the curves may be off them."""
+    closer = pair.closer
+    return not closer or (isinstance(proof, AxisProof) and pair.gap(axis(proof.axis), closer) > 0)
 
 
 def is_within(claim: Claim, length: Fraction, *, open_: bool) -> bool:

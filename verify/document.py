@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-from msgspec import UNSET
+from msgspec import UNSET, UnsetType
 
 from satcheck._version import __version__
+from satcheck.report.regions import Regions
 from satcheck.report.report import (
     ENOUGH_FAILURES,
     SUPPORT_OPEN,
@@ -21,6 +22,7 @@ from satcheck.report.report import (
 )
 from satcheck.report.request import Request, request_of
 from satcheck.report.rule_book import RuleBook
+from satcheck.report.statics import Statics
 from satcheck.report.verdict import fails
 from satcheck.report.verification import Checked, CheckedSupport, Outcome, VerificationReport
 from satcheck.scene.rules import Members
@@ -30,10 +32,10 @@ from satcheck.verify.distances import boxes_apart
 from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding
-from satcheck.verify.in_plane import ACROSS
 from satcheck.verify.published import report_of
 from satcheck.verify.severity import check_summary
 
+ACROSS = {"xy": 2, "yz": 0, "xz": 1}
 SUPPORT_CODES = frozenset((UNSUPPORTED, SUPPORT_OPEN))
 
 
@@ -59,7 +61,7 @@ def verify(
     support: tuple[CheckedSupport, ...] = ()
     pruned = exempt = 0
     if not report.missing:
-        support = report.check_support() + report.check_regions()
+        support = tuple(report.check_answers())
         pruned, exempt, left_open = report.check_unlisted()
         report.check_summary(pruned, left_open)
     outcomes = {f.outcome for f in checked} | {f.outcome for f in support}
@@ -223,23 +225,17 @@ class _Report:
                 self.faults.append(fault)
         return pruned, exempted, left_open
 
-    def check_support(self) -> tuple[CheckedSupport, ...]:
-        """The answers about the support of bodies."""
-        statics = self.report.support
-        if statics is None:
-            return ()
-        from satcheck.verify.statics.claims import Claims
-
-        return self._noting("support", lambda: tuple(Claims(statics, self.bodies).judged()))
-
-    def check_regions(self) -> tuple[CheckedSupport, ...]:
-        """The answers about bodies in regions."""
-        regions = self.report.regions
-        if not regions:
-            return ()
-        from satcheck.verify.inside import judged
-
-        return self._noting("regions", lambda: tuple(judged(regions, self.bodies)))
+    def check_answers(self) -> Iterator[CheckedSupport]:
+        """The answers about the support of bodies, then those about bodies in regions; none of a
+        part that has a fault."""
+        parts = ("support", self.report.support), ("regions", self.report.regions)
+        for part, stated in parts:
+            try:
+                yield from tuple(_answers(stated, self.bodies))
+            except Rejected as why:
+                self.faults.append(f"{part}: {why}")
+            except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
+                self.faults.append(f"{part} cannot be checked: {type(error).__name__}: {error}")
 
     def check_summary(self, pruned: int, left_open: int) -> None:
         """Checks the summary, unless a finding is ill-formed; then nothing follows from the
@@ -252,18 +248,19 @@ class _Report:
             except Rejected as why:
                 self.faults.append(str(why))
 
-    def _noting(
-        self, part: str, judge: Callable[[], tuple[CheckedSupport, ...]]
-    ) -> tuple[CheckedSupport, ...]:
-        """What a part of the report claims about single bodies; of a part that has a fault nothing
-        does."""
-        try:
-            return judge()
-        except Rejected as why:
-            self.faults.append(f"{part}: {why}")
-        except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
-            self.faults.append(f"{part} cannot be checked: {type(error).__name__}: {error}")
-        return ()
+
+def _answers(
+    part: Statics | Regions | UnsetType | None, bodies: Mapping[str, Placed]
+) -> Iterator[CheckedSupport]:
+    """What a part of the report claims about single bodies."""
+    if isinstance(part, Statics):
+        from satcheck.verify.statics.claims import Claims
+
+        yield from Claims(part, bodies).judged()
+    elif part:
+        from satcheck.verify.inside import judged
+
+        yield from judged(part, bodies)
 
 
 def _says_something(name: str, value: Any) -> bool:

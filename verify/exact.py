@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -17,7 +18,6 @@ IntVector = tuple[int, int, int]
 Point = tuple[Fraction, Fraction, Fraction]
 Vector = tuple[Any, Any, Any]  # of integers or rationals
 Pair = tuple[Any, Any]  # coordinates in a plane
-HalfSpace = tuple[Vector, Any]  # normal . x <= limit
 Homogeneous = tuple[int, int, int, int]
 
 SIGNIFICANT_BITS = 53
@@ -138,9 +138,9 @@ def clipped(region: Sequence[Homogeneous], space: Homogeneous) -> list[Homogeneo
     return [p for k, p in enumerate(kept) if p != kept[k - 1]] or kept[:1]
 
 
-def half_spaces(t: Sequence[Vector]) -> list[HalfSpace]:
-    """Half-spaces normal . x <= limit whose intersection is the closed triangle, which may be a
-    segment or a point."""
+def half_spaces(t: Sequence[Vector]) -> list[Homogeneous]:
+    """Half-spaces whose intersection is the closed triangle, which may be a segment or a point; of
+    one with an area first those of its plane, then those of its edges."""
     n = normal_of(t)
     if any(n):
         normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
@@ -153,10 +153,10 @@ def half_spaces(t: Sequence[Vector]) -> list[HalfSpace]:
         across = [cross(along, u) for u in units] if any(along) else units
         normals = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
         anchors = [q] + [p] * (len(normals) - 1)
-    return [(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
+    return [half_space(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
 
 
-def _negated(v: IntVector) -> IntVector:
+def _negated(v: Vector) -> Vector:
     return -v[0], -v[1], -v[2]
 
 
@@ -246,17 +246,13 @@ def sign_of(c: Fraction, less: Sequence[Fraction] = (), more: Sequence[Fraction]
     A sum of square roots of rationals, all with one sign, is rational only if each root is. So
     narrower bounds find every sign except 0, and 0 comes only from exact roots.
     """
-    less, more = list(less), list(more)
-    for p in [p for p in less if p in more]:
-        if p in more:
-            less.remove(p)
-            more.remove(p)
+    taken, added = Counter(less) - Counter(more), Counter(more) - Counter(less)
     for bits in BITS:
         low = high = c
-        for p in less:
+        for p in taken.elements():
             below, above = root(p, bits)
             low, high = low - above, high - below
-        for p in more:
+        for p in added.elements():
             below, above = root(p, bits)
             low, high = low + below, high + above
         if low > 0 or high < 0 or low == high == 0:

@@ -37,11 +37,11 @@ from typing import Any
 import numpy as np
 
 from satcheck.report.certificate import Excuse
-from satcheck.verify.cells import Cell, Sides, chosen, sides_of
+from satcheck.verify.cells import Cell, Contacts, Sides, chosen, sides_of
 from satcheck.verify.exact import Floats, Point, Rejected, cross, dot, point, sub
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.pairs import Pair
-from satcheck.verify.patches import SUM_ERROR, TINY, lengths, next_points, slack
+from satcheck.verify.patches import SUM_ERROR, TINY, distances, lengths, next_points, slack
 from satcheck.verify.surfaces import Mask, meeting
 from satcheck.verify.thickness import at_most, holds_ball
 from satcheck.verify.world import Exact, Indices, connected
@@ -86,7 +86,7 @@ class Face:
 Stretch = tuple[Fraction, Fraction, Face]  # where along a line its edge starts and ends
 
 
-def neither_passes(pair: Pair, contacts: list[tuple[int, int]]) -> None:
+def neither_passes(pair: Pair, contacts: Contacts) -> None:
     """Rejects two solids unless it is proven that neither passes through the other: whether faces
     that lie in both surfaces belong to both, or to none. contacts: all pairs of triangles that
     meet."""
@@ -117,12 +117,12 @@ def _no_piece_joins_two(around: list[list[Face]]) -> None:
                 raise Rejected("one body passes through the other")
 
 
-def _bounding(pair: Pair, contacts: list[tuple[int, int]]) -> Iterator[tuple[Face, Cell]]:
+def _bounding(pair: Pair, contacts: Contacts) -> Iterator[tuple[Face, Cell]]:
     """With the corners of each."""
     views = (pair.a, pair.b, contacts), (pair.b, pair.a, [(t, s) for s, t in contacts])
     count = 0
     for body, (x, y, pairs) in enumerate(views):
-        for sides in sides_of(x, y, pairs, chosen(x, y, pairs, lambda inside: inside)):
+        for sides in sides_of(chosen(x, y, pairs, lambda inside: inside), x, y, pairs):
             if not _bounds(sides):
                 continue
             count += 1
@@ -167,9 +167,7 @@ MOST_HALVINGS = 64
 MIDDLE_ERROR = 2.0**-45
 
 
-def reaches_no_deeper(
-    body: Exact, solid: Exact, contacts: list[tuple[int, int]], length: Fraction
-) -> None:
+def reaches_no_deeper(body: Exact, solid: Exact, contacts: Contacts, length: Fraction) -> None:
     """Rejects a body unless it is proven that no point of its surface lies deeper than the length,
     world units, in the solid. contacts: all pairs of triangles that meet."""
     reach = _Reach(body, solid, float(length) * (1 - SUM_ERROR))
@@ -226,7 +224,7 @@ class _Reach:
         """The triangles that may be next to a point of the piece, of those near it; None: no point
         of the piece is deeper than the length."""
         centre, radius = self._ball(piece)
-        least, most = _distances(centre, self.triangles[near])
+        least, most = distances(centre, self.triangles[near])
         nearest = int(most.argmin())
         surface, at_least = float(most[nearest]), float(least.min())
         if surface + radius <= self.length:
@@ -245,17 +243,6 @@ class _Reach:
 
     def _on_lattice(self, p: Floats) -> Point:
         return point(Fraction(c) * (1 << self.solid.k) for c in p.tolist())
-
-
-def _distances(point: Floats, triangles: Floats) -> tuple[Floats, Floats]:
-    """Bounds of the distances of a point (3,) from triangles (n, 3, 3), (n,)."""
-    spokes = triangles - point
-    nearest, error = next_points(spokes), slack(spokes)
-    most = lengths(nearest)
-    with np.errstate(all="ignore"):
-        heights = np.einsum("nkj,nj->nk", spokes, nearest / most[:, None]).min(axis=1)
-    least = np.nan_to_num(heights - error, nan=0.0)
-    return np.maximum(least, 0.0), most + error
 
 
 def _halves(piece: Floats) -> Iterator[Floats]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 from msgspec import UnsetType
 
-from satcheck.report.certificate import Proof, SurfacesProof
+from satcheck.report.certificate import ExactVector, Proof, SurfacesProof
 from satcheck.report.judge import named
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.request import Request
@@ -18,8 +18,10 @@ from satcheck.verify.distances import (
     Claim,
     check_distance,
     check_holes,
+    check_overlap_of_curves,
     check_pieces,
     is_within,
+    leaves_gap_of_curves,
     prove_apart,
     spanned,
 )
@@ -33,13 +35,7 @@ from satcheck.verify.figures import (
     rounding_of,
     shows_direction,
 )
-from satcheck.verify.in_plane import (
-    check_in_plane,
-    check_overlap_of_curves,
-    leaves_gap_of_curves,
-    reaching,
-)
-from satcheck.verify.pairs import Pair, any_pair_of, axis, given, pair_of, vector
+from satcheck.verify.pairs import Pair, any_pair_of, axis, given, prisms, vector
 from satcheck.verify.relations import prove, prove_free
 from satcheck.verify.severity import check_severity
 from satcheck.verify.thickness import at_most, holds_ball
@@ -151,9 +147,8 @@ def _prove_relation(claim: Claim, shares_ball: bool) -> bool:
     relation, pair, across = claim.finding.exact_relation, claim.pair, claim.request.across
     ends, proof = pair, claim.certificate.relation
     if across is not None and isinstance(pair, Pair):
-        check_in_plane(claim.finding, claim.certificate, across)
-        (a, b), worlds = pair.placed, reaching(relation, pair.a.world, pair.b.world, across)
-        ends = replace(pair_of(a, b, *worlds), across=across)
+        _check_in_plane(claim, across)
+        ends = prisms(pair, relation, across)
         if relation != "separated":
             check_overlap_of_curves(relation, ends)
     if relation == "penetrating" and isinstance(proof, SurfacesProof) and shares_ball:
@@ -162,6 +157,19 @@ def _prove_relation(claim: Claim, shares_ball: bool) -> bool:
             return False
     beyond = claim.tolerance if claim.finding.relation == "separated" else Fraction(0)
     return prove(relation, proof, ends, max(beyond, pair.closer), claim.least_gap + pair.closer)
+
+
+def _check_in_plane(claim: Claim, across: int) -> None:
+    """Directions and moves of a finding, and of its certificate, run along the plane."""
+    finding, certificate = claim.finding, claim.certificate
+    directions: list[ExactVector | UnsetType | None] = [finding.mtv, finding.normal]
+    if not isinstance(certificate.depth, UnsetType):
+        directions.append(certificate.depth.upper)
+    if not isinstance(certificate.band, UnsetType):
+        directions += [certificate.band.axis, certificate.band.move]
+    for direction in directions:
+        if isinstance(direction, tuple) and vector(direction)[across] != 0:
+            raise Rejected("a direction leaves the plane")
 
 
 def _check_depth(claim: Claim) -> bool:

@@ -14,7 +14,6 @@ from functools import partial
 import numpy as np
 
 from satcheck.report.regions import InsideFinding, Regions
-from satcheck.report.verdict import severity_of_answer
 from satcheck.report.verification import CheckedSupport
 from satcheck.verify.bodies import Placed
 from satcheck.verify.exact import (
@@ -36,47 +35,22 @@ from satcheck.verify.world import Exact, World
 def judged(regions: Regions, bodies: Mapping[str, Placed]) -> Iterator[CheckedSupport]:
     """Each answer, in the order of the report. Rejects a list of other questions than those that
     the rules ask."""
-    asked = _asked(regions, bodies)
-    if [(f.body, f.region) for f in regions.findings] != list(asked):
+    terms = body_terms(regions.rules, bodies)
+    asked = [(id_, own.region_for(id_)) for id_, own in terms.items()]
+    stated = [(finding.body, finding.region) for finding in regions.findings]
+    if stated != [(id_, region) for id_, region in asked if region is not None]:
         raise Rejected("the questions about regions are not those that rules ask")
     for finding in regions.findings:
-        check = partial(_check, finding, *asked[finding.body, finding.region], regions, bodies)
-        yield checked(finding, check)
-
-
-def _check(
-    finding: InsideFinding,
-    rule: str,
-    severity: str | None,
-    regions: Regions,
-    bodies: Mapping[str, Placed],
-) -> None:
-    if finding.rule != rule:
-        raise Rejected("another rule asks this")
-    if finding.severity != severity_of_answer(finding.answer, severity):
-        raise Rejected("the severity does not follow from the answer and the rules")
-    if finding.answer == "open":
-        _check_form(finding, convex=False)
-    else:
         body, region = bodies[finding.body], bodies[finding.region]
-        check_answer(finding, body, region, regions.tolerance)
-
-
-def _asked(
-    regions: Regions, bodies: Mapping[str, Placed]
-) -> dict[tuple[str, str], tuple[str, str | None]]:
-    """(body, region) -> the rule that asks, and the severity that rules give the errors of the
-    body."""
-    terms = body_terms(regions.rules, bodies)
-    return {
-        (id_, region): (own.rules["inside"].name, own.value("severity"))
-        for id_, own in terms.items()
-        if (region := own.region_for(id_)) is not None
-    }
+        check = partial(check_answer, finding, body, region, regions.tolerance)
+        yield checked(finding, "inside", terms[finding.body], check)
 
 
 def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:
     """Rejects a yes or a no that is not proven by what the finding states."""
+    if finding.answer == "open":
+        _check_form(finding, convex=False)
+        return
     if region.world is None or not region.world.solid or region.holed:
         raise Rejected("a region is a closed mesh")
     _check_form(finding, convex=region.convex)

@@ -1,17 +1,24 @@
 """Two bodies of a pair, how they lie along an axis, and what certificates say of them: numbers,
-points and axes, as read from JSON."""
+points and axes, as read from JSON.
+
+In a plane each body is the prism over its outline, |z| <= height, where z is normal to the plane.
+Every height exceeds the width of every body. Two prisms relate as their outlines do, with the same
+gap and depth. Only containment depends on the heights, which outlines do not have.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TypeVar
 
+import numpy as np
 from msgspec import UnsetType
 
 from satcheck.report.certificate import Ends, OnBody
 from satcheck.report.certificate import Exact as Number
+from satcheck.report.values import Relation
 from satcheck.verify.bodies import Placed, curve_error
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Point, Reach, Rejected, dot, point, sign_of, sub
@@ -149,3 +156,22 @@ def _point_of(end: OnBody, body: Curved | Exact) -> Point:
     if body.side(p) < 0:
         raise Rejected("a point lies outside of its body")
     return p
+
+
+def prisms(pair: Pair, relation: Relation | None, across: int) -> Pair:
+    """A pair in a plane, with heights that suit the relation to be proven: a prism that is claimed
+    to contain the other one gets the greater height. Otherwise both get the same height, and only
+    their walls may separate them."""
+    a, b = pair.a.world, pair.b.world
+    height = max(float(world.bounds[1][across]) for world in (a, b))
+    if relation in ("contains", "inside", "penetrating", "coincident"):
+        a = _of_height(a, (1 + (relation == "contains")) * height, across)
+        b = _of_height(b, (1 + (relation == "inside")) * height, across)
+    of_a, of_b = pair.placed
+    return replace(pair_of(of_a, of_b, a, b), across=across)
+
+
+def _of_height(prism: World, height: float, across: int) -> World:
+    vertices = prism.vertices.copy()
+    vertices[:, across] = np.copysign(height, vertices[:, across])
+    return World(vertices, prism.triangles, prism.solid)

@@ -183,14 +183,9 @@ def comes_within(body: Exact, p: Point, length: Fraction, *, open_: bool) -> boo
     radius = up(length) + float(lengths(np.spacing(np.abs(at))))
     gaps = np.maximum(np.maximum(world.low - at, at - world.high), 0.0)
     near = np.flatnonzero(~(lengths(gaps) > radius * (1 + SUM_ERROR)))
-    spokes = world.vertices[world.triangles[near]] - at
-    with np.errstate(all="ignore"):
-        direction = next_points(spokes)
-        direction /= lengths(direction)[:, None]
-        heights = np.einsum("nkj,nj->nk", spokes, direction).min(axis=1)
-        beyond = heights - slack(spokes) >= radius
+    least, _ = distances(at, world.vertices[world.triangles[near]])
     most = (length * scale) ** 2
-    for t in near[~beyond].tolist():
+    for t in near[least < radius].tolist():
         i, j, k = integers(world.vertices[world.triangles[t]], body.k)
         squared = squared_distance(p, (i, j, k))
         if squared < most or (squared == most and not open_):
@@ -225,6 +220,17 @@ def next_points(spokes: Floats) -> Floats:
         foot = np.einsum("nk,nkj->nj", weights, spokes)
     chosen: Floats = np.where(inside[:, None], foot, best)
     return chosen
+
+
+def distances(point: Floats, triangles: Floats) -> tuple[Floats, Floats]:
+    """Bounds of the distances of a point (3,) from triangles (n, 3, 3), (n,)."""
+    spokes = triangles - point
+    nearest, error = next_points(spokes), slack(spokes)
+    most = lengths(nearest)
+    with np.errstate(all="ignore"):
+        heights = np.einsum("nkj,nj->nk", spokes, nearest / most[:, None]).min(axis=1)
+    least = np.nan_to_num(heights - error, nan=0.0)
+    return np.maximum(least, 0.0), most + error
 
 
 def slack(spokes: Floats) -> Floats:

@@ -21,19 +21,19 @@ from satcheck.report.certificate import (
 )
 from satcheck.report.values import Relation
 from satcheck.verify.boundary import contacts_if_apart, meet, no_crossing
-from satcheck.verify.cells import Sides, chosen, sheets_among, sides_of
+from satcheck.verify.cells import Contacts, Sides, chosen, sheets_among, sides_of
 from satcheck.verify.curved import Curved
 from satcheck.verify.depth import inner_radius_exceeds
 from satcheck.verify.exact import (
-    IntVector,
-    Point,
     Rejected,
     cross,
     dot,
+    half_spaces,
+    height,
+    homogeneous,
     normal_of,
     point,
     sign_of,
-    sub,
 )
 from satcheck.verify.pairs import AnyPair, Pair, axis, given, index
 from satcheck.verify.surfaces import common, meeting
@@ -41,8 +41,7 @@ from satcheck.verify.world import Exact, count_by_triangle
 
 # How a point lies: (in A, in B).
 BOTH, A_ALONE, B_ALONE = (True, True), (True, False), (False, True)
-Way = tuple[bool, bool]
-Contacts = list[tuple[int, int]]
+Way = tuple[bool, ...]
 
 
 def prove(
@@ -126,12 +125,10 @@ def _nested(outer: Curved | Exact, inner: Curved | Exact) -> None:
         return
     if isinstance(inner, Exact):
         raise Rejected("of two meshes the surfaces show that one holds the other")
-    for t in range(len(outer.world.triangles)):
-        corners = outer.corners(t)
+    for corners in map(outer.corners, range(len(outer.world.triangles))):
         n = normal_of(corners)
-        most = inner.reach(point(n))
-        height = Fraction(dot(n, corners[0]), 1 << outer.k)
-        if any(n) and sign_of(height - most.q, [most.p]) <= 0:
+        most, limit = inner.reach(point(n)), Fraction(dot(n, corners[0]), 1 << outer.k)
+        if any(n) and sign_of(limit - most.q, [most.p]) <= 0:
             raise Rejected("the curved shape is not behind each face")
     if not outer.winding(point(Fraction(c) * (1 << outer.k) for c in inner.image.origin)):
         raise Rejected("the curved shape lies outside of the mesh")
@@ -192,8 +189,8 @@ def _ways(
             continue
         theirs = {way[::turn][1] for way in ways}
         triangles = [only[::turn][0]] if only else chosen(x, y, pairs, theirs.__contains__)
-        for sides in sides_of(x, y, pairs, triangles):
-            yield {(way[::turn][0], way[::turn][1]) for way in _ways_beside(sides, x.world.solid)}
+        for sides in sides_of(triangles, x, y, pairs):
+            yield {way[::turn] for way in _ways_beside(sides, x.world.solid)}
 
 
 def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
@@ -237,7 +234,9 @@ def _overlap(proof: SurfacesProof, pair: Pair) -> None:
 def _shows_overlap(pair: Pair, contacts: Contacts, only: tuple[int, int] | None = None) -> bool:
     """Whether points lie in both bodies, and in each one alone; or in one alone, and the boundaries
     meet. A part of a solid always lies outside of a sheet."""
-    found = {way for way, other in ((A_ALONE, pair.b), (B_ALONE, pair.a)) if not other.world.solid}
+    found: set[Way] = {
+        way for way, other in ((A_ALONE, pair.b), (B_ALONE, pair.a)) if not other.world.solid
+    }
     if len(found) == 2:
         return False  # two bodies without an inside have no common interior
     boundaries_meet = None
@@ -260,22 +259,11 @@ def _cross(named: tuple[int, int], pair: Pair) -> bool:
     if len(shared) != 2 or not any(cross(*normals)):
         return False
     middle = point((p + q) / 2 for p, q in zip(*shared, strict=True))
-    for c, normal in zip(corners, normals, strict=True):
-        for k in range(3):
-            inward = cross(normal, sub(c[(k + 1) % 3], c[k]))
-            if dot(inward, middle) <= dot(inward, c[k]):
-                return False  # they meet at an edge
-    sides = [_sides(body, middle, n) for body, n in zip((pair.a, pair.b), normals, strict=True)]
+    at = homogeneous(middle)
+    if any(height(edge, at) >= 0 for c in corners for edge in half_spaces(c)[2:]):
+        return False  # they meet at an edge
+    sides = [body.beside(middle, n) for body, n in zip((pair.a, pair.b), normals, strict=True)]
     return (False, False) in sides and (True, True) not in sides and None not in sides
-
-
-def _sides(body: Exact, p: Point, normal: IntVector) -> tuple[bool, bool] | None:
-    """Whether there is material in front of a triangle of the body and behind it, next to p; None
-    where another triangle lies."""
-    if not body.world.solid:
-        return False, False
-    windings = body.beside(p, normal)
-    return None if windings is None else (windings[0] != 0, windings[1] != 0)
 
 
 def _same(pair: Pair) -> None:

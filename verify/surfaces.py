@@ -15,7 +15,6 @@ from satcheck.verify.exact import (
     cartesian,
     clipped,
     dot,
-    half_space,
     half_spaces,
     homogeneous,
     nearest_to_origin,
@@ -168,8 +167,8 @@ def common(a: Corners, b: Corners) -> list[Point]:
     if not any(normal_of(a)):
         a, b = b, a
     region = [homogeneous(p) for p in b]
-    for normal, limit in half_spaces(a):
-        region = clipped(region, half_space(normal, limit))
+    for space in half_spaces(a):
+        region = clipped(region, space)
         if not region:
             break
     return [cartesian(p) for p in region]

@@ -15,7 +15,7 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.certificate import Cells, Weighted
-from satcheck.verify.exact import Floats, Point, Rejected, cartesian, point
+from satcheck.verify.exact import Point, Rejected, cartesian, point
 from satcheck.verify.pairs import index
 from satcheck.verify.partition import (
     BOUNDED,
@@ -33,7 +33,7 @@ from satcheck.verify.patches import (
     lengths,
     patch_of,
 )
-from satcheck.verify.world import Exact, Indices
+from satcheck.verify.world import Exact
 
 
 def holds_ball(body: Exact, centre: Sequence[float], radius: Fraction) -> None:
@@ -88,36 +88,35 @@ class _Sums:
         self.granted = [less[side] for side in sides]
 
     def are_at_most(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> None:
-        for _, terms in bounded:
-            for patch, _ in terms:
-                index(patch, len(self.patches))
-            if not any(weight for _, weight in terms):
+        used: dict[int, list[tuple[int, float]]] = {}  # patch -> the cells, and its weights there
+        for number, (_, terms) in enumerate(bounded):
+            largest = max((weight for _, weight in terms), default=0)
+            if largest <= 0:
                 raise Rejected("the weights of a bound are 0")
-        self._are_clear(bounded, most)
+            for patch, weight in terms:
+                n = index(patch, len(self.patches))
+                if weight:
+                    used.setdefault(n, []).append((number, weight / largest))
+        for n, places in used.items():
+            self._is_clear(n, [bounded[number][0] for number, _ in places], most)
         limit = most * self.frame.scale
-        for number in self._open(bounded, most):
+        for number in self._open(bounded, used, most) if bounded else ():
             cell, terms = bounded[number]
             corners = map(cartesian, cell.corners(self.frame))
             if any(self._exceeds(p, terms, limit) for p in corners):
                 raise Rejected("a cell is not shown to be as thin as that")
 
-    def _are_clear(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> None:
+    def _is_clear(self, n: int, cells: list[Cell], most: Fraction) -> None:
         """Rejects a plane with something of its body in front of it. Where that is looked at within
         reach only, the sum bounds depths up to that: it has to be more than `most`."""
-        used: dict[int, list[Cell]] = {}
-        for cell, terms in bounded:
-            for n, weight in terms:
-                if weight and isinstance(self.patches[n], Side):
-                    used.setdefault(n, []).append(cell)
-        for n, bound_here in used.items():
-            side = self.patches[n]
-            assert isinstance(side, Side)
-            if side.supports:
-                continue
-            if side.reach is None or Fraction(side.reach) - self.granted[n] <= most:
-                raise Rejected("a body reaches beyond a plane that should bound it")
-            if not all(side.is_clear(cell, side.reach) for cell in bound_here):
-                raise Rejected("a body reaches beyond a plane next to what it should bound")
+        side = self.patches[n]
+        if isinstance(side, Piece) or side.supports:
+            return
+        reach = side.reach
+        if reach is None or Fraction(reach) - self.granted[n] <= most:
+            raise Rejected("a body reaches beyond a plane that should bound it")
+        if not all(side.is_clear(cell, reach) for cell in cells):
+            raise Rejected("a body reaches beyond a plane next to what it should bound")
 
     def _exceeds(self, p: Point, terms: Weighted, limit: Fraction) -> bool:
         shares = [(patch, Fraction(weight)) for patch, weight in terms if weight]
@@ -125,42 +124,29 @@ class _Sums:
         bounds = (w * (self.patches[n].distance(p) - less[n]) for n, w in shares)
         return sum(bounds) > limit * sum(w for _, w in shares)
 
-    def _open(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> list[int]:
-        """The cells that float64 leaves open."""
-        if not bounded:
-            return []
-        points, off, counts = self._corners([cell for cell, _ in bounded])
-        width = np.array([len(terms) for _, terms in bounded])
-        patch = np.array([n for _, terms in bounded for n, _ in terms])
-        weight = np.array([w for _, terms in bounded for _, w in terms], dtype=float)
-        # A row for each corner of a cell and each term of its sum.
-        cell_of = np.repeat(np.arange(len(bounded)), counts)
-        rows = width[cell_of]
-        point_of = np.repeat(np.arange(len(points)), rows)
-        first = np.cumsum(width) - width
-        # Rounded weights are weights too. The largest is 1, so no sum of them is 0 or infinite.
-        weight /= np.repeat(np.maximum.reduceat(weight, first), width)
-        within = np.arange(rows.sum()) - np.repeat(np.cumsum(rows) - rows, rows)
-        term_of = first[cell_of[point_of]] + within
-        value = np.empty(len(term_of))
-        order = np.argsort(patch[term_of], kind="stable")
-        borders = np.flatnonzero(np.diff(patch[term_of][order])) + 1
-        for group in np.split(order, borders):
-            n = patch[term_of[group[0]]]
-            above = self.patches[n].above(points[point_of[group]])
-            value[group] = above + off[point_of[group]] - float(self.granted[n]) * (1 - SUM_ERROR)
-        terms = weight[term_of] * value
-        total = np.bincount(point_of, terms, len(points))
-        size = np.bincount(point_of, np.abs(terms), len(points))
-        share = np.bincount(point_of, weight[term_of], len(points))
-        error = SUM_ERROR * (1 + rows / 32)  # two roundoffs for each term
+    def _open(
+        self,
+        bounded: list[tuple[Cell, Weighted]],
+        used: dict[int, list[tuple[int, float]]],
+        most: Fraction,
+    ) -> list[int]:
+        """The cells that float64 leaves open. Rounded weights are weights too: the largest is 1, so
+        no sum of them is 0 or infinite."""
+        corners = [cell.rounded(self.frame) for cell, _ in bounded]
+        points = np.concatenate(corners)
+        cell_of = np.repeat(np.arange(len(bounded)), [len(p) for p in corners])
+        rows_of = np.split(np.arange(len(points)), np.flatnonzero(np.diff(cell_of)) + 1)
+        is_exact = self.frame.is_plain and all(cell.faces is None for cell, _ in bounded)
+        off = np.zeros(len(points)) if is_exact else 2.0**-51 * lengths(points)
+        total, size, share = np.zeros((3, len(points)))
+        for n, places in used.items():
+            rows = np.concatenate([rows_of[number] for number, _ in places])
+            weight = np.repeat([w for _, w in places], [len(rows_of[k]) for k, _ in places])
+            above = self.patches[n].above(points[rows])
+            terms = weight * (above + off[rows] - float(self.granted[n]) * (1 - SUM_ERROR))
+            for sums, more in ((total, terms), (size, np.abs(terms)), (share, weight)):
+                np.add.at(sums, rows, more)
+        width = np.array([len(terms) for _, terms in bounded])[cell_of]
+        error = SUM_ERROR * (1 + width / 32)  # two roundoffs for each term
         holds = total + error * size + TINY <= float(most) * (1 - error) * share
         return np.unique(cell_of[~holds]).tolist()  # type: ignore[no-any-return]
-
-    def _corners(self, cells: list[Cell]) -> tuple[Floats, Floats, Indices]:
-        """In the world, (n, 3), how far they are off, (n,), and how many each cell has."""
-        corners = [cell.rounded(self.frame) for cell in cells]
-        points = np.concatenate(corners)
-        exact = self.frame.is_plain and all(cell.faces is None for cell in cells)
-        off = np.zeros(len(points)) if exact else 2.0**-51 * lengths(points)
-        return points, off, np.array([len(p) for p in corners])

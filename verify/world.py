@@ -17,9 +17,11 @@ from satcheck.verify.exact import (
     IntVector,
     Point,
     Rejected,
+    Vector,
     cross,
     dot,
     half_spaces,
+    height,
     homogeneous,
     integers,
     lattice,
@@ -191,15 +193,6 @@ def rounded(vector: Sequence[Any]) -> Floats:
     return np.array([float(c / largest) for c in vector])
 
 
-def possibly_highest(normal: Sequence[Any], points: Floats) -> Indices:
-    """The indices of all points that may be farthest along the normal, and of a few others."""
-    direction = rounded(normal)
-    heights = points @ direction
-    # Three products, two sums, and the rounding of the direction: 6 roundoffs cover them.
-    error = 8 * 2.0**-53 * float((np.abs(points) @ np.abs(direction)).max()) + 2.0**-1000
-    return np.flatnonzero(heights >= heights.max() - 2 * error)
-
-
 class Exact:
     """A body on the lattice of a pair: its points are integers. scale: the factor from world
     units."""
@@ -226,13 +219,18 @@ class Exact:
         points = self.world.vertices[used]
         along = [k for k, c in enumerate(normal) if c]
         if len(along) == 1:  # no sum, so no rounding
-            heights_there = points[:, along[0]] * sign(normal[along[0]])
-            near = used[[int(heights_there.argmax())]]
+            heights = points[:, along[0]] * sign(normal[along[0]])
+            near = used[[int(heights.argmax())]]
         else:
-            near = used[possibly_highest(normal, points)]
-        heights = [dot(normal, p) for p in integers(self.world.vertices[near], self.k)]
-        best = max(range(len(heights)), key=heights.__getitem__)
-        return int(near[best]), heights[best]
+            direction = rounded(normal)
+            heights = points @ direction
+            # Three products, two sums, and the rounding of the direction: 6 roundoffs cover them.
+            sizes = np.abs(points) @ np.abs(direction)
+            error = 8 * 2.0**-53 * float(sizes.max()) + 2.0**-1000
+            near = used[heights >= heights.max() - 2 * error]
+        exact = [dot(normal, p) for p in integers(self.world.vertices[near], self.k)]
+        best = max(range(len(exact)), key=exact.__getitem__)
+        return int(near[best]), exact[best]
 
     def extent(self, normal: Sequence[Any]) -> Any:
         return self.farthest(normal)[1]
@@ -242,17 +240,20 @@ class Exact:
         crossings = self.ray(p, 0, None)
         return None if crossings is None else crossings[0]
 
-    def beside(self, p: Point, normal: IntVector) -> tuple[int, int] | None:
-        """Winding numbers in front of and behind a point of a plane, next to it; None where p also
-        lies on a triangle of another plane."""
+    def beside(self, p: Point, normal: Vector) -> tuple[bool, bool] | None:
+        """Whether material lies in front of and behind a point of a plane, next to it; None where p
+        also lies on a triangle of another plane. What is not solid has none."""
+        if not self.world.solid:
+            return False, False
         axis = max(range(3), key=lambda k: abs(normal[k]))
         crossings = self.ray(p, axis, normal)
         if crossings is None:
             return None
         ahead, flush = crossings
-        return (ahead, ahead + flush) if normal[axis] > 0 else (ahead + flush, ahead)
+        sides = ahead != 0, ahead + flush != 0
+        return sides if normal[axis] > 0 else sides[::-1]
 
-    def ray(self, p: Point, axis: int, plane: IntVector | None) -> tuple[int, int] | None:
+    def ray(self, p: Point, axis: int, plane: Vector | None) -> tuple[int, int] | None:
         """Signed crossings of the ray from p along +axis: beyond p, and in p's own plane.
 
         Ties are broken as if p were moved across the ray by (e, e^2), e > 0 and infinitely small.
@@ -263,16 +264,16 @@ class Exact:
         for t in self._in_the_way(p, axis):
             corners = self.corners(t)
             normal = normal_of(corners)
-            height = dot(normal, x) - dot(normal, corners[0]) * x[3]
+            above = dot(normal, x) - dot(normal, corners[0]) * x[3]
             in_plane = (
-                height == 0 and plane is not None and any(normal) and not any(cross(normal, plane))
+                above == 0 and plane is not None and any(normal) and not any(cross(normal, plane))
             )
-            if height == 0 and not in_plane and holds(corners, x):
+            if above == 0 and not in_plane and holds(corners, x):
                 return None
             side = projected_side(corners, x, axis)
             if in_plane:
                 flush += side
-            elif height * side < 0:
+            elif above * side < 0:
                 ahead += side
         return ahead, flush
 
@@ -306,7 +307,7 @@ def projected_side(corners: Corners, x: Homogeneous, axis: int) -> int:
 
 def holds(corners: Corners, x: Homogeneous) -> bool:
     """Whether a closed triangle, which may be a segment or a point, holds a point."""
-    return all(dot(normal, x) <= limit * x[3] for normal, limit in half_spaces(corners))
+    return all(height(space, x) <= 0 for space in half_spaces(corners))
 
 
 def count_by_triangle(

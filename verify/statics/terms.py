@@ -7,6 +7,7 @@ from typing import Any
 
 from satcheck.report.report import BodyAnswer
 from satcheck.report.statics import BodyRuleReport
+from satcheck.report.verdict import severity_of_answer
 from satcheck.report.verification import CheckedSupport, Outcome
 from satcheck.scene.rules import Selector
 from satcheck.scene.statics import KEYS, BodyRule, BodyTerms, terms_of
@@ -45,17 +46,27 @@ def once(check: Callable[..., None]) -> Callable[..., None]:
     return again
 
 
-def checked(finding: BodyAnswer, check: Callable[[], None]) -> CheckedSupport:
-    """Return what a check says of an answer."""
-    outcome: Outcome = "accepted"
-    reason = None
+def checked(
+    finding: BodyAnswer,
+    key: str,
+    own: BodyTerms,
+    check: Callable[[], None],
+    is_doubted: Callable[[], bool] = lambda: False,
+) -> CheckedSupport:
+    """Return what a check says of an answer. key: of the rules that ask. own: what the rules say
+    about the body. is_doubted: whether the answer comes with a warning that does not follow from
+    them."""
+    outcome: Outcome = "open" if finding.answer == "open" else "accepted"
+    reason = finding.reason if outcome == "open" else None
     try:
+        if finding.rule != own.rules[key].name:
+            raise Rejected("another rule asks this")
+        follows = severity_of_answer(finding.answer, own.value("severity"))
+        if not is_doubted() and finding.severity != follows:
+            raise Rejected("the severity does not follow from the answer and the rules")
         check()
     except NotCertified as why:
         outcome, reason = "not certified", str(why)
     except Rejected as why:
         outcome, reason = "rejected", str(why)
-    else:
-        if finding.answer == "open":
-            outcome, reason = "open", finding.reason
     return CheckedSupport(finding.body, finding.question, finding.answer, outcome, reason)

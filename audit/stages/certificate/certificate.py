@@ -46,7 +46,6 @@ from satcheck.verify import Rejected, pairs
 from satcheck.verify.bodies import Placed
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.findings import check_finding
-from satcheck.verify.in_plane import reaching
 from satcheck.verify.pairs import vector
 
 
@@ -107,9 +106,7 @@ class _MeshMaker(Maker):
         self.across = draft.pair.request.across
         self.ends = self.placed
         if self.across is not None:
-            worlds = (self.placed.a.world, self.placed.b.world)
-            prisms = reaching(self.finding.exact_relation, *worlds, self.across)
-            self.ends = pairs.pair_of(*self.bodies, *prisms)
+            self.ends = pairs.prisms(self.placed, finding.exact_relation, self.across)
 
     def certificate(self) -> Certificate | NoCertificate:
         made = super().certificate()
