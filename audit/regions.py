@@ -2,7 +2,7 @@
 
 In a convex region a body lies if no point of it is farther beyond a face than the tolerance. Into
 another region a body that touches its walls is first shifted, by at most the tolerance. What is
-proposed here is proven in exact arithmetic (`verify/inside.py`) before it is an answer.
+proposed here is proven in exact arithmetic (`verify/answers.py`) before it is an answer.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from satcheck.report.certificate import OnBody
 from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.verdict import severity_of_answer
 from satcheck.scene.statics import terms_of
+from satcheck.verify.answers import check_answer
 from satcheck.verify.exact import NotCertified, Rejected
-from satcheck.verify.inside import check_answer
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene

@@ -27,8 +27,7 @@ from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Point, Rejected, point, sub
-from satcheck.verify.open_parts import bounds_nothing, is_balanced, with_backs
-from satcheck.verify.planes import is_convex
+from satcheck.verify.meshes import bounds_nothing, is_balanced, is_convex, with_backs
 from satcheck.verify.world import Indices, World, placed
 
 # What a report states about a readable mesh.

@@ -21,9 +21,9 @@ import numpy as np
 from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopeProof, Region
 from satcheck.report.certificate import Indices as Numbers
 from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, normal_of, point, sub
+from satcheck.verify.meshes import AT_ONCE, HUGE, ROUNDOFF, TINY, Planes
 from satcheck.verify.pairs import index
 from satcheck.verify.patches import lengths
-from satcheck.verify.planes import AT_ONCE, HUGE, ROUNDOFF, TINY, Planes
 from satcheck.verify.surfaces import Mask
 from satcheck.verify.world import Exact, Indices, is_flat
 

@@ -25,7 +25,7 @@ from satcheck.verify.bodies import Placed, box_gaps, curve_error
 from satcheck.verify.boundary import contacts_if_apart
 from satcheck.verify.exact import Rejected, TooMany, dot
 from satcheck.verify.figures import EXACT_WIDTH, Rounding, default_tolerance
-from satcheck.verify.open_parts import turns_around
+from satcheck.verify.meshes import turns_around
 from satcheck.verify.pairs import AnyPair, Pair, axis, given, vector
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact, stick_out

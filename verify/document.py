@@ -258,7 +258,7 @@ def _answers(
 
         yield from Claims(part, bodies).judged()
     elif part:
-        from satcheck.verify.inside import judged
+        from satcheck.verify.answers import judged
 
         yield from judged(part, bodies)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from satcheck.core import Mesh, Surface
-from satcheck.verify.open_parts import turns_around
+from satcheck.verify.meshes import turns_around
 from tests.audit.shapes import unit_box
 
 POINTS, FACES = unit_box(edge=2.0)

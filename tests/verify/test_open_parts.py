@@ -11,7 +11,7 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
-from satcheck.verify.open_parts import bounds_nothing, with_backs
+from satcheck.verify.meshes import bounds_nothing, with_backs
 from tests.audit.shapes import Mesh, moved, open_box, unit_box, write
 from tests.verify.reports import Json, pieces, sheet, turned, upright, verified
 

@@ -10,8 +10,7 @@ import pytest
 
 from satcheck import core
 from satcheck.verify.exact import Rejected, dot, normal_of, sign, sub
-from satcheck.verify.open_parts import is_balanced
-from satcheck.verify.planes import AT_ONCE, is_convex
+from satcheck.verify.meshes import AT_ONCE, is_balanced, is_convex
 from satcheck.verify.world import Exact, World, placed
 from tests.audit.shapes import Mesh, bracket, open_box, unit_box
 

@@ -18,11 +18,11 @@ from satcheck.report.statics import (
 )
 from satcheck.report.verification import CheckedSupport
 from satcheck.scene.statics import QUESTIONS
+from satcheck.verify.answers import body_terms, checked, once
 from satcheck.verify.bodies import Placed
 from satcheck.verify.exact import NotCertified, Rejected, sub
 from satcheck.verify.pairs import vector
 from satcheck.verify.statics.contacts import ROUNDING, Contacts, check_apart
-from satcheck.verify.statics.terms import body_terms, checked, once
 from satcheck.verify.statics.weights import (
     Push,
     Weight,

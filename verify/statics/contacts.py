@@ -10,6 +10,7 @@ import numpy as np
 
 from satcheck.report.certificate import SurfacesProof
 from satcheck.report.statics import BodyContact, ContactPoint
+from satcheck.verify.answers import once
 from satcheck.verify.bodies import Placed, box_gaps
 from satcheck.verify.exact import Floats, NotCertified, Rejected, point, sub
 from satcheck.verify.findings import prove_way_out
@@ -24,7 +25,6 @@ from satcheck.verify.statics.places import (
     places_of,
     places_of_ball,
 )
-from satcheck.verify.statics.terms import once
 from satcheck.verify.statics.weights import ball
 from satcheck.verify.world import Exact
 

@@ -1,4 +1,5 @@
-"""Check that bodies lie in their regions up to a tolerance, checked in exact arithmetic.
+"""The answers of a report to rules about single bodies, and whether bodies lie in their regions,
+checked in exact arithmetic.
 
 In a convex region a body lies if no point of it is farther beyond a face than the tolerance. In
 another region it lies if a shift by at most the tolerance brings all of it into the region, and it
@@ -7,14 +8,20 @@ does not if one of its points is outside and farther than the tolerance from the
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from satcheck.report.regions import InsideFinding, Regions
-from satcheck.report.verification import CheckedSupport
+from satcheck.report.report import BodyAnswer
+from satcheck.report.statics import BodyRuleReport
+from satcheck.report.verdict import severity_of_answer
+from satcheck.report.verification import CheckedSupport, Outcome
+from satcheck.scene.rules import Selector
+from satcheck.scene.statics import KEYS, BodyRule, BodyTerms, terms_of
 from satcheck.verify.bodies import Placed
 from satcheck.verify.exact import (
     IntVector,
@@ -28,8 +35,64 @@ from satcheck.verify.exact import (
 from satcheck.verify.pairs import on_body, pair_of, reach, vector
 from satcheck.verify.patches import comes_within
 from satcheck.verify.relations import check_within
-from satcheck.verify.statics.terms import body_terms, checked
 from satcheck.verify.world import Exact, World
+
+
+def body_terms(
+    rules: Sequence[BodyRuleReport], bodies: Mapping[str, Placed]
+) -> dict[str, BodyTerms]:
+    """Return what the rules say about each body of the report, by id."""
+    of_scene = [
+        BodyRule(
+            bodies=Selector(rule.bodies),
+            **{key: getattr(rule, key) for key in (*KEYS, "reason", "where")},
+        )
+        for rule in rules
+    ]
+    return dict(zip(bodies, terms_of(list(bodies.values()), of_scene), strict=True))
+
+
+def once(check: Callable[..., None]) -> Callable[..., None]:
+    """A check that several answers share: for each of its arguments it is made once."""
+    results: dict[tuple[Any, ...], Rejected | NotCertified | None] = {}
+
+    def again(*of: Any) -> None:
+        if of not in results:
+            try:
+                results[of] = check(*of)  # type: ignore[func-returns-value]
+            except (Rejected, NotCertified) as why:
+                results[of] = why
+        refusal = results[of]
+        if refusal is not None:
+            raise type(refusal)(str(refusal))
+
+    return again
+
+
+def checked(
+    finding: BodyAnswer,
+    key: str,
+    own: BodyTerms,
+    check: Callable[[], None],
+    is_doubted: Callable[[], bool] = lambda: False,
+) -> CheckedSupport:
+    """Return what a check says of an answer. key: of the rules that ask. own: what the rules say
+    about the body. is_doubted: whether the answer comes with a warning that does not follow from
+    them."""
+    outcome: Outcome = "open" if finding.answer == "open" else "accepted"
+    reason = finding.reason if outcome == "open" else None
+    try:
+        if finding.rule != own.rules[key].name:
+            raise Rejected("another rule asks this")
+        follows = severity_of_answer(finding.answer, own.value("severity"))
+        if not is_doubted() and finding.severity != follows:
+            raise Rejected("the severity does not follow from the answer and the rules")
+        check()
+    except NotCertified as why:
+        outcome, reason = "not certified", str(why)
+    except Rejected as why:
+        outcome, reason = "rejected", str(why)
+    return CheckedSupport(finding.body, finding.question, finding.answer, outcome, reason)
 
 
 def judged(regions: Regions, bodies: Mapping[str, Placed]) -> Iterator[CheckedSupport]:
