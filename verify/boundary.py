@@ -71,13 +71,11 @@ def contacts_if_apart(
     """The pairs of triangles that meet. Rejects bodies whose boundaries meet, or whose gap is not
     greater than `beyond` and at least `least`. Faces within the material of a body are no nearer to
     what is outside of it than its boundary."""
-    scale = 1 << a.k
-    low, high = (beyond * scale) ** 2, (least * scale) ** 2
     contacts = []
     for s, t, squared in close_pairs(a, b, max(beyond, least)):
         if squared == 0:
             contacts.append((s, t))
-        elif squared <= low or squared < high:
+        elif squared <= beyond**2 or squared < least**2:
             raise Rejected("the boundaries are closer than claimed")
     if meet(a, b, contacts):
         raise Rejected("the boundaries meet")

@@ -34,7 +34,7 @@ from satcheck.verify.exact import (
     sub,
 )
 from satcheck.verify.surfaces import common, meeting
-from satcheck.verify.world import Corners, Exact
+from satcheck.verify.world import Corners, Exact, connected
 
 Cell = Sequence[Vector]  # a convex polygon, in the plane of its triangle
 Segment = tuple[Point, Point]
@@ -106,7 +106,7 @@ def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
     index = np.flatnonzero(left)
     if not index.size:
         return
-    label = a.world.labels(a.world.triangles[index])
+    label = connected(a.world.triangles[index], len(a.world.vertices))
     of = label[a.world.triangles[index, 0]]
     order = np.argsort(of, kind="stable")
     borders = np.flatnonzero(np.diff(of[order])) + 1

@@ -19,8 +19,7 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopeProof, Region
-from satcheck.report.certificate import Indices as Numbers
-from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, normal_of, point, sub
+from satcheck.verify.exact import Floats, Point, Rejected, dot, normal_of, point, sub
 from satcheck.verify.meshes import AT_ONCE, HUGE, ROUNDOFF, TINY, Planes
 from satcheck.verify.pairs import index
 from satcheck.verify.patches import lengths
@@ -39,9 +38,12 @@ def inner_radius_exceeds(
     lies behind every face, the surface runs around the origin. So every ray from there meets it,
     nowhere nearer than the nearest face plane.
     """
-    points = [_difference(pair, a, b) for pair in polytope.vertices]
+    points = [
+        sub(a.points[index(i, len(a.points))], b.points[index(j, len(b.points))])
+        for i, j in polytope.vertices
+    ]
     check_closed(polytope)
-    least = radius * (1 << a.k)
+    least = radius * a.scale
     for face in polytope.faces:
         corners = [points[v] for v in face]
         normal = normal_of(corners)
@@ -63,10 +65,6 @@ def check_closed(polytope: Polytope | PolytopeProof) -> None:
         raise Rejected("the polytope runs an edge twice")
     if any((q, p) not in edges for p, q in edges):
         raise Rejected("the polytope is not closed")
-
-
-def _difference(pair: Numbers, a: Exact, b: Exact) -> IntVector:
-    return sub(a.points[index(pair[0], len(a.points))], b.points[index(pair[1], len(b.points))])
 
 
 MOST_PARTS = 200_000
@@ -159,7 +157,7 @@ def _is_in_solid(region: Region, body: Exact, origin: Sequence[float]) -> None:
     if not is_beyond[body.world.triangles].all(axis=1).any(axis=1).all():
         raise Rejected("the surface of a body enters a region of a cover")
     middle = point(sum(map(Fraction, row)) / len(corners) for row in corners.T.tolist())
-    at = point((m + Fraction(o)) * (1 << body.k) for m, o in zip(middle, origin, strict=True))
+    at = body.at(m + Fraction(o) for m, o in zip(middle, origin, strict=True))
     if not body.winding(at):
         raise Rejected("a region of a cover lies outside of its body")
 

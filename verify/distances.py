@@ -104,10 +104,10 @@ def check_distance(claim: Claim, *, spans: bool) -> Fraction | None:
 def nothing_nearer(a: Exact, b: Exact, length: Fraction, most: Fraction) -> bool:
     """Rejects surfaces that are closer than a length. Returns whether they are within `most` of
     each other. Both in world units."""
-    least, found = (length * (1 << a.k)) ** 2, False
+    found = False
     for _, _, squared in close_pairs(a, b, most, MOST_NEAR):
         found = True
-        if length > 0 and squared < least:
+        if length > 0 and squared < length**2:
             raise Rejected("triangles of the bodies are closer than the distance")
     return found
 
@@ -143,8 +143,7 @@ def is_within(claim: Claim, length: Fraction, *, open_: bool) -> bool:
     open_: or less than that."""
     pair = claim.pair
     if isinstance(pair, Pair) and not pair.convex:
-        least = (length * (1 << pair.a.k)) ** 2
-        return any(s < least or not open_ for *_, s in close_pairs(pair.a, pair.b, length))
+        return any(s < length**2 or not open_ for *_, s in close_pairs(pair.a, pair.b, length))
     step = pair.step(given(claim.certificate.gap, "gap"))
     squared = dot(step, step)
     return bool(squared < length**2 if open_ else squared <= length**2)

@@ -37,8 +37,8 @@ from typing import Any
 import numpy as np
 
 from satcheck.report.certificate import Excuse
-from satcheck.verify.cells import Cell, Contacts, Sides, chosen, sides_of
-from satcheck.verify.exact import Floats, Point, Rejected, cross, dot, point, sub
+from satcheck.verify.cells import Cell, Contacts, chosen, sides_of
+from satcheck.verify.exact import Floats, Point, Rejected, cross, dot, sub
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.pairs import Pair
 from satcheck.verify.patches import SUM_ERROR, TINY, distances, lengths, next_points, slack
@@ -123,20 +123,15 @@ def _bounding(pair: Pair, contacts: Contacts) -> Iterator[tuple[Face, Cell]]:
     count = 0
     for body, (x, y, pairs) in enumerate(views):
         for sides in sides_of(chosen(x, y, pairs, lambda inside: inside), x, y, pairs):
-            if not _bounds(sides):
+            (in_front, front), (behind, back) = sides.front, sides.back
+            if (front or back) and in_front == behind:
+                raise Rejected("a face that bounds no material lies in the other body")
+            if (True, True) not in (sides.front, sides.back):
                 continue
             count += 1
             if count > MOST_CELLS:
                 raise Rejected(f"the overlap has more than {MOST_CELLS:,} pieces of surface")
             yield Face(body, count, sides.front[1] != sides.back[1]), sides.cell
-
-
-def _bounds(sides: Sides) -> bool:
-    """Whether the common part lies on one side of a cell of the first body."""
-    (in_front, front), (behind, back) = sides.front, sides.back
-    if (front or back) and in_front == behind:
-        raise Rejected("a face that bounds no material lies in the other body")
-    return (True, True) in (sides.front, sides.back)
 
 
 def _on_line(p: Point, q: Point) -> tuple[Line, Fraction, Fraction]:
@@ -233,16 +228,13 @@ class _Reach:
         if (lengths(next_points(spokes)) + slack(spokes)).max() + self.off <= self.length:
             return None
         if at_least > self.length or radius - at_least <= self.length:
-            outside = self.solid.winding(self._on_lattice(centre)) == 0
+            outside = self.solid.winding(self.solid.at(centre.tolist())) == 0
             if not outside and at_least > self.length:
                 raise Rejected("a thin part of a body reaches deep into the other one")
             if outside and radius - at_least <= self.length:
                 return None
         kept: Indices = near[least <= (surface + 2 * radius) * (1 + SUM_ERROR)]
         return kept
-
-    def _on_lattice(self, p: Floats) -> Point:
-        return point(Fraction(c) * (1 << self.solid.k) for c in p.tolist())
 
 
 def _halves(piece: Floats) -> Iterator[Floats]:

@@ -19,7 +19,7 @@ from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
-from satcheck.verify.exact import Point, Rejected, point, root, sub
+from satcheck.verify.exact import Point, Rejected, root, sub
 from satcheck.verify.pairs import vector
 from satcheck.verify.patches import comes_within
 from satcheck.verify.world import Exact
@@ -201,7 +201,7 @@ def is_on(p: Point, body: Placed, slack: Fraction) -> bool:
     if body.curved is not None:
         return _on_curved(p, body.curved, slack)
     mesh = Exact(body.mesh, body.mesh.lattice)
-    return comes_within(mesh, point(c * (1 << mesh.k) for c in p), slack, open_=False)
+    return comes_within(mesh, mesh.at(p), slack, open_=False)
 
 
 def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:

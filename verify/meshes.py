@@ -155,7 +155,8 @@ def bounds_nothing(vertices: Floats, triangles: Indices) -> bool:
 def _flat_parts(vertices: Floats, triangles: Indices, corners: Indices) -> Mask:
     """Open parts, connected through vertices, that lie in one plane."""
     part = connected(corners, corners.max(initial=-1) + 1)[corners[:, 0]]
-    sheets = np.isin(part, _open_sets(part, corners, _edges(corners)))
+    owner, _, balance = _balances(part, corners, _edges(corners))
+    sheets = np.isin(part, owner[balance != 0])
     order = np.flatnonzero(sheets)[np.argsort(part[sheets], kind="stable")]
     for members in np.split(order, np.flatnonzero(np.diff(part[order])) + 1):
         sheets[members] = is_flat(vertices[np.unique(triangles[members])])
@@ -192,12 +193,6 @@ def _edges(corners: Indices) -> Indices:
     first, second = np.minimum(corners, following), np.maximum(corners, following)
     _, number = np.unique(first * (corners.max() + 1) + second, return_inverse=True)
     return number.reshape(-1, 3)
-
-
-def _open_sets(set_of: Indices, corners: Indices, edges: Indices) -> Indices:
-    """Sets of triangles that run some edge more often in one direction than in the other."""
-    owner, _, balance = _balances(set_of, corners, edges)
-    return np.unique(owner[balance != 0])
 
 
 def _balances(set_of: Indices, corners: Indices, edges: Indices) -> tuple[Indices, Indices, Floats]:

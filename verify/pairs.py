@@ -22,7 +22,7 @@ from satcheck.report.values import Relation
 from satcheck.verify.bodies import Placed, curve_error
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Point, Reach, Rejected, dot, point, sign_of, sub
-from satcheck.verify.world import Exact, World
+from satcheck.verify.world import Exact, World, is_flat
 
 Part = TypeVar("Part")
 
@@ -136,7 +136,7 @@ def any_pair_of(a: Placed, b: Placed) -> AnyPair:
         return pair_of(a, b, a.mesh, b.mesh)
     bodies: list[Curved | Exact] = []
     for body in (a, b):
-        if body.curved is None and (not body.convex or body.mesh.is_flat):
+        if body.curved is None and (not body.convex or is_flat(body.mesh.vertices[body.mesh.used])):
             raise Rejected("a curved shape is certified against convex bodies only")
         bodies.append(body.curved or Exact(body.mesh, body.mesh.lattice))
     return AnyPair(bodies[0], bodies[1], (a, b))
@@ -146,12 +146,12 @@ def reach(body: Curved | Exact, n: Point) -> Reach:
     """How far the body reaches along n, times the length of n."""
     if isinstance(body, Curved):
         return body.reach(n)
-    return Reach(Fraction(body.extent(n)) / (1 << body.k))
+    return Reach(Fraction(body.extent(n)) / body.scale)
 
 
 def _point_of(end: OnBody, body: Curved | Exact) -> Point:
     if isinstance(body, Exact):
-        return point(c / (1 << body.k) for c in on_body(end, body, of_hull=True))
+        return point(c / body.scale for c in on_body(end, body, of_hull=True))
     p = vector(given(end.point, "point"))
     if body.side(p) < 0:
         raise Rejected("a point lies outside of its body")

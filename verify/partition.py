@@ -76,10 +76,6 @@ class Frame:
         sides = [(self.below(k, y), opposite(self.below(k, x))) for k, (x, y) in ends]
         return [side for both in sides for side in both]
 
-    def world(self, points: Floats) -> Floats:
-        """Each coordinate rounded once."""
-        return points + self.floats
-
 
 @dataclass(frozen=True, slots=True)
 class Cell:
@@ -102,7 +98,7 @@ class Cell:
     def rounded(self, frame: Frame) -> Floats:
         """Its corners in the world, (n, 3), each coordinate rounded once."""
         if self.faces is None:
-            return frame.world(np.array([*product(*zip(self.low, self.high, strict=True))]))
+            return np.array([*product(*zip(self.low, self.high, strict=True))]) + frame.floats
         corners = self.corners(frame)
         return np.array([[c / (w * frame.scale) for c in p] for *p, w in corners])
 

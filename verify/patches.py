@@ -178,7 +178,7 @@ def _covers(triangles: list[Corners], hull: list[Pair], across: int) -> None:
 def comes_within(body: Exact, p: Point, length: Fraction, *, open_: bool) -> bool:
     """Whether the surface of a body comes within a length, world units, of a point of the lattice.
     open_: or nearer than that."""
-    world, scale = body.world, 1 << body.k
+    world, scale = body.world, body.scale
     at = np.array([float(Fraction(c) / scale) for c in p])
     radius = up(length) + float(lengths(np.spacing(np.abs(at))))
     gaps = np.maximum(np.maximum(world.low - at, at - world.high), 0.0)

@@ -120,17 +120,17 @@ def _nested(outer: Curved | Exact, inner: Curved | Exact) -> None:
         if isinstance(inner, Curved):
             raise Rejected("of two curved shapes it is not certified that one holds the other")
         used = (inner.points[k] for k in inner.world.used.tolist())
-        if not all(outer.side(point(Fraction(c, 1 << inner.k) for c in p)) > 0 for p in used):
+        if not all(outer.side(point(Fraction(c, inner.scale) for c in p)) > 0 for p in used):
             raise Rejected("a vertex does not lie inside the curved shape")
         return
     if isinstance(inner, Exact):
         raise Rejected("of two meshes the surfaces show that one holds the other")
     for corners in map(outer.corners, range(len(outer.world.triangles))):
         n = normal_of(corners)
-        most, limit = inner.reach(point(n)), Fraction(dot(n, corners[0]), 1 << outer.k)
+        most, limit = inner.reach(point(n)), Fraction(dot(n, corners[0]), outer.scale)
         if any(n) and sign_of(limit - most.q, [most.p]) <= 0:
             raise Rejected("the curved shape is not behind each face")
-    if not outer.winding(point(Fraction(c) * (1 << outer.k) for c in inner.image.origin)):
+    if not outer.winding(outer.at(inner.image.origin)):
         raise Rejected("the curved shape lies outside of the mesh")
 
 

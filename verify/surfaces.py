@@ -81,17 +81,17 @@ def _halves(index: Indices, centres: Floats) -> list[Indices]:
 def close_pairs(
     a: Exact, b: Exact, reach: Fraction, most: int = MOST_PAIRS
 ) -> Iterator[tuple[int, int, Fraction]]:
-    """The pairs of triangles within reach of each other (world units), with the square of their
-    distance on the lattice; 0 if they meet."""
-    within = reach * (1 << a.k)
+    """The pairs of triangles within reach of each other, with the square of their distance; 0 if
+    they meet. World units."""
     for s, t in perhaps_close(a, b, reach, most):
         ca, cb = a.corners(s), b.corners(t)
         if common(ca, cb):
             yield s, t, Fraction(0)
-        elif within > 0:
+        elif reach > 0:
             x, _ = nearest_to_origin([sub(q, p) for p in ca for q in cb])
-            if dot(x, x) <= within * within:
-                yield s, t, dot(x, x)
+            squared = dot(x, x) / a.scale**2
+            if squared <= reach * reach:
+                yield s, t, squared
 
 
 def perhaps_close(

@@ -15,7 +15,7 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.certificate import Cells, Weighted
-from satcheck.verify.exact import Point, Rejected, cartesian, point
+from satcheck.verify.exact import Point, Rejected, cartesian
 from satcheck.verify.pairs import index
 from satcheck.verify.partition import (
     BOUNDED,
@@ -40,7 +40,7 @@ def holds_ball(body: Exact, centre: Sequence[float], radius: Fraction) -> None:
     """Rejects a ball, world units, that does not lie in the solid, apart from its skin."""
     if not body.world.solid:
         raise Rejected("what is not solid has no thickness")
-    at = point(Fraction(c) * (1 << body.k) for c in centre)
+    at = body.at(centre)
     if not body.winding(at):
         raise Rejected("the centre of the ball lies outside of a body")
     if comes_within(body, at, radius, open_=True):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -26,6 +26,7 @@ from satcheck.verify.exact import (
     integers,
     lattice,
     normal_of,
+    point,
     sign,
     sub,
 )
@@ -61,15 +62,6 @@ class World:
     @cached_property
     def lattice(self) -> int:
         return lattice(self.vertices)
-
-    def labels(self, triangles: Indices) -> Indices:
-        """For each vertex the least vertex that is connected with it through these triangles."""
-        return connected(triangles, len(self.vertices))
-
-    @property
-    def is_flat(self) -> bool:
-        """Whether all vertices in use lie in one plane."""
-        return is_flat(self.vertices[self.used])
 
     def moved(self, offset: Sequence[float]) -> World:
         """Each coordinate rounded once."""
@@ -149,7 +141,7 @@ def two_product(a: float, b: Floats) -> tuple[Floats, Floats]:
 
 
 def connected(triangles: Indices, count: int) -> Indices:
-    """For each corner the least corner that is connected with it through triangles."""
+    """For each of so many corners the least one that is connected with it through triangles."""
     label = np.arange(count)
     while True:  # each triangle takes the least label of its corners, labels follow labels
         least = label[triangles].min(axis=1)
@@ -198,7 +190,11 @@ class Exact:
     units."""
 
     def __init__(self, world: World, k: int) -> None:
-        self.world, self.k = world, k
+        self.world, self.k, self.scale = world, k, 1 << k
+
+    def at(self, p: Iterable[Any]) -> Point:
+        """A point of the world on the lattice."""
+        return point(Fraction(c) * self.scale for c in p)
 
     @cached_property
     def points(self) -> list[IntVector]:
@@ -268,7 +264,11 @@ class Exact:
             in_plane = (
                 above == 0 and plane is not None and any(normal) and not any(cross(normal, plane))
             )
-            if above == 0 and not in_plane and holds(corners, x):
+            if (
+                above == 0
+                and not in_plane
+                and all(height(space, x) <= 0 for space in half_spaces(corners))
+            ):
                 return None
             side = projected_side(corners, x, axis)
             if in_plane:
@@ -279,7 +279,7 @@ class Exact:
 
     def _in_the_way(self, p: Point, axis: int) -> list[int]:
         """Triangles whose boxes meet the ray, and a few whose do not."""
-        at = [float(c / (1 << self.k)) for c in p]
+        at = [float(c / self.scale) for c in p]
         down, up = np.nextafter(at, -np.inf), np.nextafter(at, np.inf)
         low, high = self.world.low, self.world.high
         hit = high[:, axis] >= down[axis]
@@ -303,11 +303,6 @@ def projected_side(corners: Corners, x: Homogeneous, axis: int) -> int:
         turn = along_i * (x[j] - u[j] * w) - along_j * (x[i] - u[i] * w)
         sides.add(sign(turn or -along_j or along_i))
     return sides.pop() if len(sides) == 1 else 0
-
-
-def holds(corners: Corners, x: Homogeneous) -> bool:
-    """Whether a closed triangle, which may be a segment or a point, holds a point."""
-    return all(height(space, x) <= 0 for space in half_spaces(corners))
 
 
 def count_by_triangle(

@@ -46,7 +46,7 @@ def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
         is_apart = any_pair_of(other, round_).gap(along, least) > 0
     else:
         mesh = Exact(other.world, other.world.lattice)
-        middle = point(Fraction(c) * (1 << mesh.k) for c in centre)
+        middle = mesh.at(centre)
         reach = max(Fraction(radius) + least, Fraction(0))
         is_apart = not comes_within(mesh, middle, reach, open_=False)
         if is_apart and mesh.world.solid and mesh.winding(middle) != 0:

@@ -41,7 +41,7 @@ from satcheck.verify.exact import (
 from satcheck.verify.pairs import vector
 from satcheck.verify.statics.places import Place
 from satcheck.verify.surfaces import meeting
-from satcheck.verify.world import Exact, World
+from satcheck.verify.world import Exact, World, connected
 
 MOST_PARTS = 500  # of a mesh, whose boxes are compared in pairs
 # Forces balance a weight up to this share of it, and torques up to this share of the weight times
@@ -84,24 +84,20 @@ def covers_once(body: Placed) -> bool:
     if body.world is None:
         return True
     world = body.world
-    labels = world.labels(world.triangles)[world.triangles[:, 0]]
+    labels = connected(world.triangles, len(world.vertices))[world.triangles[:, 0]]
     parts = [world.triangles[labels == label] for label in np.unique(labels)]
     if not 1 < len(parts) <= MOST_PARTS:
         return len(parts) == 1
     shells = [Exact(World(world.vertices, part, solid=True), world.lattice) for part in parts]
     beside: list[list[Exact]] = [[] for _ in shells]
     for (i, one), (j, other) in itertools.combinations(enumerate(shells), 2):
-        if _boxes_meet(one.world, other.world):
+        (low, high), (low_b, high_b) = one.world.bounds, other.world.bounds
+        if ((low < high_b) & (low_b < high)).all():
             if meeting(one, other):
                 return False
             beside[i].append(other)
             beside[j].append(one)
     return all(_bounds_once(shell, others) for shell, others in zip(shells, beside, strict=True))
-
-
-def _boxes_meet(a: World, b: World) -> bool:
-    (low, high), (low_b, high_b) = a.bounds, b.bounds
-    return bool(((low < high_b) & (low_b < high)).all())
 
 
 def _bounds_once(shell: Exact, others: list[Exact]) -> bool:
