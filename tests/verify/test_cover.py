@@ -13,7 +13,7 @@ import pytest
 from msgspec import ValidationError, convert
 from msgspec.structs import replace
 
-from satcheck.audit.stages.certificate.cover import cover
+from satcheck.audit.stages.certificate.cells import cover
 from satcheck.core import Mesh as CoreMesh
 from satcheck.core import Surface
 from satcheck.report.certificate import Cover, Region

@@ -139,7 +139,7 @@ def forged_excuse(made: Json, certified: bool, off: float, paths: list[Path]) ->
 
     from satcheck import core
     from satcheck.audit.body import PlacedBody, SharedMesh
-    from satcheck.audit.stages.certificate.thickness import cells
+    from satcheck.audit.stages.certificate.cells import cells
 
     assert certified
     settings = Settings(surface_tolerance=off)

@@ -11,19 +11,17 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.draft import Draft
-from satcheck.audit.stages.certificate.cover import cover
+from satcheck.audit.stages.certificate.cells import cells, cover, excuse
 from satcheck.audit.stages.certificate.curved import CurvedMaker
 from satcheck.audit.stages.certificate.maker import (
     AXES,
     Maker,
-    NoCertificate,
     at_least,
     axis_of,
     exact_number,
     leading_axes,
     or_unset,
 )
-from satcheck.audit.stages.certificate.thickness import cells, excuse
 from satcheck.audit.stages.exact_hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.report.certificate import (
@@ -41,9 +39,7 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.report import Finding
-from satcheck.report.request import Request
 from satcheck.verify import Rejected, pairs
-from satcheck.verify.bodies import Placed
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.findings import check_finding
 from satcheck.verify.pairs import vector
@@ -51,50 +47,39 @@ from satcheck.verify.pairs import vector
 
 def with_certificate(finding: Finding, draft: Draft) -> Finding:
     """Return the finding with its evidence, or with a stage that says why there is none."""
-    certificate: Certificate | NoCertificate = NoCertificate(
-        "a sweep of moving bodies leaves no evidence"
-    )
-    if finding.motion is None:
-        try:
-            certificate = _certified(draft, finding)
-        except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
-            not_for_lack_of_memory(error)
-            certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
-    if isinstance(certificate, NoCertificate):
-        draft.record("certificate", "none", certificate.reason)
+    try:
+        certificate = _certified(draft, finding)
+    except Rejected as why:
+        draft.record("certificate", "none", str(why))
+        return replace(finding, plan=tuple(draft.stages))
+    except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
+        not_for_lack_of_memory(error)
+        draft.record("certificate", "none", f"internal error: {type(error).__name__}: {error}")
         return replace(finding, plan=tuple(draft.stages))
     kind = certificate.relation.__struct_config__.tag
     draft.record("certificate", str(kind), "accepted by the checker")
     return replace(finding, certificate=certificate, plan=tuple(draft.stages))
 
 
-def _certified(draft: Draft, finding: Finding) -> Certificate | NoCertificate:
-    """A certificate that the checker accepts, or why there is none."""
+def _certified(draft: Draft, finding: Finding) -> Certificate:
+    """Return a certificate that the checker accepts. Raises Rejected: there is none."""
     pair = draft.pair
+    if finding.motion is not None:
+        raise Rejected("a sweep of moving bodies leaves no evidence")
     if finding.exact_relation is None:
-        return NoCertificate("the relation is not proven")
-    a, b = pair.a.checked(), pair.b.checked()
-    try:
-        maker = CurvedMaker(pair, finding) if pair.curved else _MeshMaker(draft, finding)
-    except Rejected as open_:
-        return NoCertificate(str(open_))
+        raise Rejected("the relation is not proven")
+    maker = CurvedMaker(pair, finding) if pair.curved else _MeshMaker(draft, finding)
     certificate = maker.certificate()
-    if isinstance(certificate, NoCertificate):
-        return certificate
-    why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
-    for part in ("thickness", "cover"):  # it may be that alone
-        if why is not None and getattr(certificate, part) is not UNSET:
-            certificate = replace(certificate, **{part: UNSET})
-            why = _refusal(replace(finding, certificate=certificate), a, b, pair.request)
-    return certificate if why is None else NoCertificate(f"what was found does not prove it: {why}")
-
-
-def _refusal(finding: Finding, a: Placed, b: Placed, request: Request) -> str | None:
-    try:
-        check_finding(finding, a, b, request)
-    except Rejected as why:
-        return str(why)
-    return None
+    parts = [part for part in ("thickness", "cover") if getattr(certificate, part) is not UNSET]
+    while True:
+        try:
+            check_finding(replace(finding, certificate=certificate), *maker.bodies, pair.request)
+        except Rejected as why:
+            if not parts:
+                raise Rejected(f"what was found does not prove it: {why}") from None
+            certificate = replace(certificate, **{parts.pop(0): UNSET})  # it may be that alone
+        else:
+            return certificate
 
 
 class _MeshMaker(Maker):
@@ -108,10 +93,8 @@ class _MeshMaker(Maker):
         if self.across is not None:
             self.ends = pairs.prisms(self.placed, finding.exact_relation, self.across)
 
-    def certificate(self) -> Certificate | NoCertificate:
+    def certificate(self) -> Certificate:
         made = super().certificate()
-        if isinstance(made, NoCertificate):
-            return made
         finding, bounds = self.finding, self.finding.depth_bounds
         if bounds is not None and self.placed.convex:
             depth = self._depth(Fraction(bounds[0]), Fraction(bounds[1]) - self.closer)
@@ -220,7 +203,7 @@ class _MeshMaker(Maker):
     def gap(self) -> Ends | None:
         return _on_hulls(nearest_point(self.placed).weights) if self.placed.convex else None
 
-    def otherwise_in_band(self) -> Band | NoCertificate | None:
+    def otherwise_in_band(self) -> Band:
         if self.placed.convex:
             inner = expanded(self.placed, Fraction(self.pair.tolerance) * 2)
             axis = None if inner is None else axis_of(shortened(inner.axis))
@@ -230,8 +213,7 @@ class _MeshMaker(Maker):
         move = None if self.draft.band is None else self.draft.band.move
         if move is not None:
             return Band(move=move, free=or_unset(self.free(move)))
-        explained = excuse(self.pair)
-        return explained if isinstance(explained, NoCertificate) else Band(excuse=explained)
+        return Band(excuse=excuse(self.pair))
 
 
 def _polytope(expansion: Expanded) -> Polytope:
@@ -239,12 +221,10 @@ def _polytope(expansion: Expanded) -> Polytope:
 
 
 def _on_hulls(weights: dict[tuple[int, int], Fraction]) -> Ends:
-    a, b = (_on_hull(weights, side) for side in (0, 1))
+    of_a: dict[int, Fraction] = {}
+    of_b: dict[int, Fraction] = {}
+    for (i, j), weight in weights.items():
+        of_a[i] = of_a.get(i, Fraction(0)) + weight
+        of_b[j] = of_b.get(j, Fraction(0)) + weight
+    a, b = (OnBody(tuple(x), tuple(map(exact_number, x.values()))) for x in (of_a, of_b))
     return Ends(a, b)
-
-
-def _on_hull(weights: dict[tuple[int, int], Fraction], side: int) -> OnBody:
-    shares: dict[int, Fraction] = {}
-    for vertex, weight in weights.items():
-        shares[vertex[side]] = shares.get(vertex[side], Fraction(0)) + weight
-    return OnBody(tuple(shares), tuple(map(exact_number, shares.values())))

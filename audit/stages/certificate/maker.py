@@ -7,7 +7,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import Any, TypeVar
 
-from msgspec import UNSET, Struct, UnsetType
+from msgspec import UNSET, UnsetType
 
 from satcheck.audit.pair import Pair
 from satcheck.report.certificate import (
@@ -34,10 +34,6 @@ AXES: tuple[ExactVector, ...] = (
     (0.0, 0.0, 1.0),
     (0.0, 0.0, -1.0),
 )
-
-
-class NoCertificate(Struct, frozen=True):
-    reason: str
 
 
 def exact_number(value: Fraction) -> Exact:
@@ -99,30 +95,26 @@ class Maker:
         """Return points of convex bodies next to each other."""
         raise NotImplementedError
 
-    def otherwise_in_band(self) -> Band | NoCertificate | None:
+    def otherwise_in_band(self) -> Band | None:
         """Say why an overlap is within the touch band that is wider along all axes."""
         return None
 
-    def certificate(self) -> Certificate | NoCertificate:
+    def certificate(self) -> Certificate:
+        """Raises Rejected: no evidence was found."""
         finding = self.finding
         relation = self.relation()
         if relation is None:
-            return NoCertificate(f"no evidence was found for {finding.exact_relation!r}")
+            raise Rejected(f"no evidence was found for {finding.exact_relation!r}")
         mtv = gap = band = None
         if finding.mtv_verified and finding.mtv is not None:
             mtv = self.free(finding.mtv)
             if mtv is None:
-                return NoCertificate(
-                    "no axis was found that shows that the translation ends the overlap"
-                )
+                raise Rejected("no axis was found that shows that the translation ends the overlap")
         if finding.relation != finding.exact_relation:
             if finding.exact_relation == "separated":
                 gap = self.gap()
             elif finding.exact_relation in OVERLAPS:
-                within = self._band()
-                if isinstance(within, NoCertificate):
-                    return within
-                band = within
+                band = self._band()
         shown = None if self.closer and isinstance(mtv, SurfacesProof) else mtv
         return Certificate(relation, or_unset(shown), gap=or_unset(gap), band=or_unset(band))
 
@@ -153,7 +145,7 @@ class Maker:
             if any(vector(axis)) and (across is None or not vector(axis)[across]):
                 yield axis
 
-    def _band(self) -> Band | NoCertificate | None:
+    def _band(self) -> Band | None:
         """Say why an overlap is within the touch band; None: its way out does."""
         finding, band = self.finding, Fraction(self.pair.tolerance)
         if finding.mtv_verified and (finding.depth or 0.0) <= self.pair.tolerance:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.audit.stages.certificate.thickness import cells
+from satcheck.audit.stages.certificate.cells import cells
 from satcheck.verify import Rejected
 from satcheck.verify.pairs import Pair
 from satcheck.verify.thickness import at_most, holds_ball
