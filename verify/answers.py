@@ -127,7 +127,11 @@ def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance
     elif body.holed:
         raise NotCertified("a mesh with holes in a region that is not convex")
     else:
-        _check_shifted(finding, body, region, tolerance)
+        move = vector(finding.shift or ())
+        if dot(move, move) > Fraction(tolerance) ** 2:
+            raise Rejected("the shift is longer than the tolerance")
+        moved = body.moved([float(c) for c in move])
+        check_within(pair_of(moved, region, moved.mesh, region.mesh))
 
 
 def _check_form(finding: InsideFinding, *, convex: bool) -> None:
@@ -178,14 +182,6 @@ def _planes(faces: Exact) -> Iterator[tuple[IntVector, IntVector]]:
             if ((x, y, z), dot((x, y, z), a)) not in seen:
                 seen.add(((x, y, z), dot((x, y, z), a)))
                 yield (x, y, z), a
-
-
-def _check_shifted(finding: InsideFinding, body: Placed, region: Placed, tolerance: float) -> None:
-    move = vector(finding.shift or ())
-    if dot(move, move) > Fraction(tolerance) ** 2:
-        raise Rejected("the shift is longer than the tolerance")
-    moved = body.moved([float(c) for c in move])
-    check_within(pair_of(moved, region, moved.mesh, region.mesh))
 
 
 def _check_point(finding: InsideFinding, body: World, region: World, tolerance: float) -> None:

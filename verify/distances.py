@@ -24,7 +24,7 @@ from satcheck.scene.inspect import MOST_AROUND
 from satcheck.verify.bodies import Placed, box_gaps, curve_error
 from satcheck.verify.boundary import contacts_if_apart
 from satcheck.verify.exact import Rejected, TooMany, dot
-from satcheck.verify.figures import EXACT_WIDTH, Rounding, default_tolerance
+from satcheck.verify.figures import EXACT_WIDTH, Rounding, tolerance_of
 from satcheck.verify.meshes import turns_around
 from satcheck.verify.pairs import AnyPair, Pair, axis, given, vector
 from satcheck.verify.surfaces import close_pairs
@@ -213,8 +213,6 @@ def boxes_apart(a: Placed, b: Placed, request: Request) -> bool:
     closer = curve_error(a, b)
     if widest > max(most, (request.clearance or 0.0) + float(closer)) * CERTAINLY:
         return True
-    tolerance = request.tolerance
-    if tolerance is None:
-        tolerance = default_tolerance(a, b, request.across)
-    beyond = max(Fraction(tolerance), Fraction(request.clearance or 0.0) + closer)
+    tolerance = Fraction(tolerance_of(a, b, request))
+    beyond = max(tolerance, Fraction(request.clearance or 0.0) + closer)
     return sum(max(gap, Fraction(0)) ** 2 for gap in box_gaps(a, b)) > beyond * beyond

@@ -65,11 +65,13 @@ def check_id(finding: Finding) -> None:
         raise Rejected("its id is not that of these two bodies")
 
 
-def default_tolerance(a: Placed, b: Placed, across: int | None) -> float:
-    """The sum of the input precisions of two bodies, at most a share of the smaller body, and at
-    least the deviation of polygons from their curves. across: sizes along this axis do not
-    count."""
-    axes = [axis for axis in range(3) if axis != across]
+def tolerance_of(a: Placed, b: Placed, request: Request) -> float:
+    """The tolerance that is asked, or the sum of the input precisions of two bodies, at most a
+    share of the smaller body, and at least the deviation of polygons from their curves. Sizes
+    across the plane of a check do not count."""
+    if request.tolerance is not None:
+        return request.tolerance
+    axes = [axis for axis in range(3) if axis != request.across]
     sizes = [
         math.dist(*(corner[axes].tolist() for corner in body.bounds))
         for body in (a, b)
@@ -80,10 +82,7 @@ def default_tolerance(a: Placed, b: Placed, across: int | None) -> float:
 
 
 def check_tolerance(finding: Finding, a: Placed, b: Placed, request: Request) -> Fraction:
-    expected = request.tolerance
-    if expected is None:
-        expected = default_tolerance(a, b, request.across)
-    tolerance = finding.tolerance
+    tolerance, expected = finding.tolerance, tolerance_of(a, b, request)
     if tolerance is None or not math.isclose(tolerance, expected, rel_tol=SAME):
         raise Rejected(f"the tolerance is {expected!r}")
     return Fraction(tolerance)

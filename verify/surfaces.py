@@ -83,26 +83,18 @@ def close_pairs(
 ) -> Iterator[tuple[int, int, Fraction]]:
     """The pairs of triangles within reach of each other, with the square of their distance; 0 if
     they meet. World units."""
-    for s, t in perhaps_close(a, b, reach, most):
-        ca, cb = a.corners(s), b.corners(t)
-        if common(ca, cb):
-            yield s, t, Fraction(0)
-        elif reach > 0:
-            x, _ = nearest_to_origin([sub(q, p) for p in ca for q in cb])
-            squared = dot(x, x) / a.scale**2
-            if squared <= reach * reach:
-                yield s, t, squared
-
-
-def perhaps_close(
-    a: Exact, b: Exact, reach: Fraction = Fraction(0), most: int = MOST_PAIRS
-) -> Iterator[tuple[int, int]]:
-    """The pairs of triangles within reach of each other (world units), and a few others, as float64
-    tells them apart."""
     for i, j in near_pairs(a, b, up(reach), most):
         p, q = a.world.vertices[a.world.triangles[i]], b.world.vertices[b.world.triangles[j]]
         left = ~_apart(p, q, up(reach))
-        yield from zip(i[left].tolist(), j[left].tolist(), strict=True)
+        for s, t in zip(i[left].tolist(), j[left].tolist(), strict=True):
+            ca, cb = a.corners(s), b.corners(t)
+            if common(ca, cb):
+                yield s, t, Fraction(0)
+            elif reach > 0:
+                x, _ = nearest_to_origin([sub(q, p) for p in ca for q in cb])
+                squared = dot(x, x) / a.scale**2
+                if squared <= reach * reach:
+                    yield s, t, squared
 
 
 def meeting(a: Exact, b: Exact) -> list[tuple[int, int]]:

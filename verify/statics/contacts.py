@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 
 from satcheck.report.certificate import SurfacesProof
 from satcheck.report.statics import BodyContact, ContactPoint
-from satcheck.verify.answers import once
 from satcheck.verify.bodies import Placed, box_gaps
 from satcheck.verify.exact import Floats, NotCertified, Rejected, point, sub
 from satcheck.verify.findings import prove_way_out
@@ -69,7 +68,7 @@ class Contacts:
     def __init__(self, bodies: Mapping[str, Placed], tolerance: float) -> None:
         self._bodies, self._tolerance = bodies, tolerance
         self._places: dict[tuple[str, str], list[Place]] = {}
-        self._shallow = once(self._check_shallow)
+        self._shallow = cache(self._is_shallow)
 
     def near(self, name: str) -> list[str]:
         """Other bodies whose boxes are within the tolerance, or unknown."""
@@ -145,10 +144,7 @@ class Contacts:
         """Raises NotCertified if A and B may overlap by more than the tolerance: they may, unless A
         is seen to be free once it is moved by the tolerance along the normal of a contact. So may
         bodies that are thinner than the tolerance."""
-        self._shallow(*sorted((a, b)))
-
-    def _check_shallow(self, a: str, b: str) -> None:
-        if not self._is_shallow(a, b):
+        if not self._shallow(*sorted((a, b))):
             raise NotCertified(f"how deep {a} and {b} overlap is not certified")
 
     def _is_shallow(self, a: str, b: str) -> bool:
