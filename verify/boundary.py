@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from functools import cache, cmp_to_key, partial
+from functools import cache, partial
 from itertools import pairwise, product
 from typing import Any
 
@@ -27,7 +27,6 @@ from satcheck.verify.exact import (
     cross,
     dot,
     normal_of,
-    sign,
     sub,
 )
 from satcheck.verify.surfaces import close_pairs, common
@@ -142,6 +141,8 @@ def _pages(corners: Corners, x: Point, line: Any) -> Iterator[Any]:
         yield edge_inward
         return
     across = cross(normal, line)
+    if not any(across):
+        raise _OnAnEdge  # the triangle stands across the line
     yield across
     yield tuple(-c for c in across)
 
@@ -150,17 +151,13 @@ def _count(pages: list[tuple[Any, bool]], line: Any) -> int:
     east = pages[0][0]
     north = cross(line, east)
 
-    def half(w: Any) -> bool:
-        return (dot(w, north), dot(w, east)) < (0, 0)
+    def angle(w: Any) -> Fraction:
+        """Grows with the way around, from 0 in the east to 4; exact."""
+        x, y = Fraction(dot(w, east)), Fraction(dot(w, north))
+        share = x / (abs(x) + abs(y))
+        return 1 - share if y >= 0 else 3 + share
 
-    def order(page: tuple[Any, bool], other: tuple[Any, bool]) -> int:
-        u, v = page[0], other[0]
-        if half(u) != half(v):
-            return -1 if half(v) else 1
-        return -sign(dot(cross(u, v), line))
-
-    turned = sorted(pages, key=cmp_to_key(order))
-    for page, following in pairwise(turned):
-        if page[1] != following[1] and order(page, following) == 0:
-            raise Rejected("two open surfaces lie in each other")
+    turned = sorted((angle(w), of_a) for w, of_a in pages)
+    if any(p[0] == q[0] and p[1] != q[1] for p, q in pairwise(turned)):
+        raise Rejected("two open surfaces lie in each other")
     return sum(turned[k - 1][1] != turned[k][1] for k in range(len(turned)))

@@ -31,9 +31,9 @@ from satcheck.verify.figures import EXACT_WIDTH
 WIDER = 1 + EXACT_WIDTH  # the share of a limit that rounding is granted
 
 
-def check_severity(claim: Claim, *most: Fraction | None) -> None:
-    """Rejects a severity, a rule or an `undecided` that does not follow. most: proven upper bounds
-    of depth and thickness."""
+def check_severity(claim: Claim, depth: Fraction | None, thickness: Fraction | None) -> None:
+    """Rejects a severity, a rule or an `undecided` that does not follow. depth, thickness: proven
+    upper bounds; None: there is none."""
     finding, request = claim.finding, claim.request
     kept, overlap = None, finding.relation in OVERLAPS
     if request.clearance and not overlap and finding.relation != "near":
@@ -41,7 +41,7 @@ def check_severity(claim: Claim, *most: Fraction | None) -> None:
     judgement = judged(finding, replace(request, severity=None), (0.0, inf), kept)
     if overlap and judgement.severity == "note":
         limits = request.max_depth, request.max_thickness, request.max_volume
-        for limit, bound in zip(limits, (*most, None), strict=True):
+        for limit, bound in zip(limits, (depth, thickness, None), strict=True):
             if limit is not None and not (bound is not None and bound <= Fraction(limit) * WIDER):
                 raise Rejected("that it is within its limits is not certified")
     judgement = by_rule(judgement, request)
