@@ -2,10 +2,9 @@
 
 It computes in integers and rationals on the float64 coordinates of the files. With the solver it
 shares the readers of files (`satcheck.scene`), and how a verdict follows from findings and rules
-(`satcheck.report`). Each proof is an argument of a few lines next
-to the code that checks it. Read it in this order: `document` (the report), `findings` and
-`relations` (the claims), `world` (winding numbers), `surfaces` (which triangles meet), `cells`
-(contact), `exact` (numbers).
+(`satcheck.report`). Each proof is an argument of a few lines next to the code that checks it. Read
+it in this order: `document` (the report), `findings` and `relations` (the claims), `world` (winding
+numbers), `surfaces` (which triangles meet), `cells` (contact), `exact` (numbers).
 """
 
 from satcheck.report.verification import Checked, VerificationReport

@@ -144,7 +144,8 @@ class Contacts:
         """Raises NotCertified if A and B may overlap by more than the tolerance: they may, unless A
         is seen to be free once it is moved by the tolerance along the normal of a contact. So may
         bodies that are thinner than the tolerance."""
-        if not self._shallow(*sorted((a, b))):
+        a, b = sorted((a, b))
+        if not self._shallow(a, b):
             raise NotCertified(f"how deep {a} and {b} overlap is not certified")
 
     def _is_shallow(self, a: str, b: str) -> bool:
