@@ -272,7 +272,8 @@ void PlaneGraph::find_faces() {
 // that leave this node lie within half a turn.
 void PlaneGraph::join_outlines(DisjointSets& sets) const {
   const auto [i, j] = plane_axes(axis_);
-  const auto is_before = [&](std::uint32_t p, std::uint32_t q) {
+  // Named anew: clang before 16 captures no binding.
+  const auto is_before = [&, i = i, j = j](std::uint32_t p, std::uint32_t q) {
     const int along = compare(p, q, i);
     return along != 0 ? along < 0 : compare(p, q, j) < 0;
   };
