@@ -26,7 +26,6 @@ import numpy as np
 from satcheck.core import Mesh, Polytope, Surface, deviation
 from satcheck.decompose.components import diagonal
 from satcheck.decompose.errors import NEVER, Deadline
-from satcheck.decompose.half_spaces import around
 from satcheck.decompose.polygons import Plane, Point, Polygon, without
 
 if TYPE_CHECKING:
@@ -45,6 +44,7 @@ _ROUNDINGS: Final = 64.0 * 2.0**-53
 # hardly stick out.
 _SLACKS: Final = (0.02, 0.005)
 _WIDE: Final = 1.25  # the finer slack is used only above this ratio of upper to lower bound
+_ENTRIES_AT_ONCE: Final = 1 << 22  # heights of points above planes: at most 32 MiB
 
 
 def outside_error(parts: Sequence[Polytope], surface: Surface, threshold: float) -> float:
@@ -97,16 +97,14 @@ class _Bodies:
     """The parts, prepared for many queries."""
 
     def __init__(self, parts: Sequence[Polytope]) -> None:
-        self._spaces = [
-            around(np.asarray(part.vertices), np.asarray(part.triangles)) for part in parts
-        ]
+        self._planes = [_planes_of(part) for part in parts]
         self._surfaces = [Surface(part.to_mesh(), True) for part in parts]
         bounds = np.array([surface.mesh.bounds for surface in self._surfaces])
         self._low, self._high = bounds[:, 0], bounds[:, 1]
 
     def heights(self, points: Floats) -> Floats:
         """(points, parts): the height above the highest plane of each part; at most 0 inside."""
-        return np.stack([space.heights(points) for space in self._spaces], axis=1)
+        return np.stack([_highest(points, *planes) for planes in self._planes], axis=1)
 
     def distance(self, point: Point, part: int) -> float:
         """The distance to the solid part; 0.0 inside, decided by exact signs."""
@@ -144,11 +142,26 @@ class _Bodies:
     def _crossing(self, polygon: Polygon, part: int, slack: float) -> list[Plane] | None:
         """The planes of the widened part that cut the polygon; None: the polygon is completely
         above a plane."""
-        space = self._spaces[part]
-        above = -space.slack(np.array(polygon)) - slack
+        normals, offsets = self._planes[part]
+        above = np.array(polygon) @ normals.T - offsets - slack
         if above.min(axis=0).max() >= 0.0:
             return None
         cutting = above.max(axis=0) > 0.0
-        return list(
-            zip(space.normals[cutting].tolist(), space.offsets[cutting].tolist(), strict=True)
-        )
+        return list(zip(normals[cutting].tolist(), offsets[cutting].tolist(), strict=True))
+
+
+def _planes_of(part: Polytope) -> tuple[Floats, Floats]:
+    """((f, 3), (f,)): the part is where normal . x <= offset for each unit normal."""
+    corners = np.asarray(part.vertices)
+    a, b, c = np.moveaxis(corners[np.asarray(part.triangles)], 1, 0)
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1)
+    normals = normals[lengths > 0.0] / lengths[lengths > 0.0, None]
+    return normals, (normals @ corners.T).max(axis=1)
+
+
+def _highest(points: Floats, normals: Floats, offsets: Floats) -> Floats:
+    """(n,): the height of each point (n, 3) above the highest plane."""
+    at_once = max(1, _ENTRIES_AT_ONCE // len(offsets))
+    chunks = (points[first : first + at_once] for first in range(0, len(points), at_once))
+    return np.concatenate([(chunk @ normals.T - offsets).max(axis=1) for chunk in chunks])

@@ -4,22 +4,30 @@ A convex part may be slightly larger than the mesh. The first candidate is the p
 second is a region of the part that the surface does not enter (up to rounding). A candidate is
 scaled about its centre until it is strictly inside. If a factor fits, every smaller factor fits.
 The exact mesh relation of the scaled copy with rounded vertices decides.
+
+The region grows in rounds, by `core.inner_region`, each from the middle of the one before and with
+its proportions.
 """
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Sequence
 from typing import Final
 
-from satcheck.core import Mesh, Polytope, Surface, mesh_relation
+import numpy as np
+
+from satcheck.core import Mesh, Polytope, Surface, inner_region, mesh_relation
 from satcheck.decompose.errors import NEVER, Deadline
-from satcheck.decompose.free_region import free_region
+
+Point = tuple[float, float, float]
 
 # Tried in this order. The factors are for contact from inside, rounding far from the origin,
 # shallow dents, and deep dents.
 _FACTORS: Final = (1.0 - 1e-6, 1.0 - 1e-4, 0.999, 0.99, 0.97, 0.9, 0.8, 0.6, 0.4, 0.2)
 _NEGLIGIBLE_VOLUME: Final = 1e-6  # of the largest part; smaller parts do not affect a depth
+_SEEDS: Final = 64  # points of the part that are tried as first middle
+_ROUNDS: Final = 3
+_WORTHWHILE_GAIN: Final = 1.02  # in volume, for one more round
 
 
 def inner_parts(
@@ -61,14 +69,46 @@ def is_inside(copy: Polytope, solid: Surface) -> bool:
     return relation.relation == "contains" and relation.proven
 
 
-def _scaled(region: Mesh, centre: tuple[float, float, float], factor: float) -> Polytope:
+def _scaled(region: Mesh, centre: Point, factor: float) -> Polytope:
     """The scaled copy. Its vertices are rounded, so it is rebuilt as their exact hull."""
     x, y, z = ((1.0 - factor) * coordinate for coordinate in centre)
     matrix = (factor, 0.0, 0.0, x, 0.0, factor, 0.0, y, 0.0, 0.0, factor, z, 0.0, 0.0, 0.0, 1.0)
     return region.transformed(matrix).convex_hull()
 
 
-def _vertex_mean(region: Mesh) -> tuple[float, float, float]:
-    points = list(struct.iter_unpack("<ddd", region.to_bytes()[0]))
-    x, y, z = (sum(coordinate) / len(points) for coordinate in zip(*points, strict=True))
+def _vertex_mean(body: Mesh | Polytope) -> Point:
+    x, y, z = np.asarray(body.vertices).mean(axis=0).tolist()
     return x, y, z
+
+
+def free_region(part: Polytope, solid: Surface, deadline: Deadline = NEVER) -> Polytope | None:
+    """Return a convex region in the part, inside the solid mesh up to rounding; None: none is
+    found.
+
+    Deterministic. Nothing is proven here. Raises DecompositionError at the deadline.
+    """
+    best, best_volume = None, 0.0
+    like, seed = part, _deepest_seed(part, solid)
+    for _ in range(_ROUNDS):
+        deadline.check()
+        region = None if seed is None else inner_region(solid, seed, part, like)
+        volume = 0.0 if region is None else region.to_mesh().topology().volume
+        if region is None or volume <= best_volume * _WORTHWHILE_GAIN:
+            break
+        best, best_volume, like = region, volume, region
+        seed = _vertex_mean(region)
+    return best
+
+
+def _deepest_seed(part: Polytope, solid: Surface) -> Point | None:
+    """Return the one of the tried points that is inside both, the farthest from their surfaces."""
+    corners = np.asarray(part.vertices)
+    shares = np.random.default_rng(0).dirichlet(np.full(len(corners), 0.5), _SEEDS)
+    tried = np.concatenate([corners.mean(axis=0)[None], shares @ corners]).tolist()
+    around = Surface(part.to_mesh(), True)
+    depths = {}
+    for x, y, z in tried:
+        point = x, y, z
+        if (solid.winding_number(point) or 0) > 0:
+            depths[point] = min(each.nearest(point)[0] for each in (solid, around))
+    return max(depths, key=depths.__getitem__, default=None)

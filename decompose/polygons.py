@@ -26,7 +26,9 @@ def halves(polygon: Polygon, above: list[float]) -> tuple[Polygon, Polygon]:
     for index, (point, height) in enumerate(zip(polygon, above, strict=True)):
         before = above[index - 1]
         if (before < 0.0 < height) or (height < 0.0 < before):
-            cut = between(polygon[index - 1], point, before / (before - height))
+            share = before / (before - height)
+            (ax, ay, az), (bx, by, bz) = polygon[index - 1], point
+            cut = ax + share * (bx - ax), ay + share * (by - ay), az + share * (bz - az)
             lower.append(cut)
             upper.append(cut)
         if height <= 0.0:
@@ -53,8 +55,3 @@ def without(
             inside, beyond = halves(inside, above)
             rest.append(beyond)
     return inside, rest
-
-
-def between(tail: Point, head: Point, share: float) -> Point:
-    (ax, ay, az), (bx, by, bz) = tail, head
-    return ax + share * (bx - ax), ay + share * (by - ay), az + share * (bz - az)

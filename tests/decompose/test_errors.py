@@ -8,8 +8,7 @@ from satcheck.core import Mesh, Surface
 from satcheck.decompose import DecompositionError, computation, decompose, errors
 from satcheck.decompose.error_bounds import missing_error
 from satcheck.decompose.errors import NEVER, Deadline
-from satcheck.decompose.free_region import free_region
-from satcheck.decompose.inner_parts import inner_parts
+from satcheck.decompose.inner_parts import free_region, inner_parts
 
 OVER = Deadline(-1.0)
 
