@@ -5,7 +5,7 @@ aabb -> obb -> hull -> triangles, or hull -> parts at --accuracy parts. The clim
 that proves a gap beyond `gap_limit`. The highest allowed rung always answers. An answer that it
 cannot prove is an estimate, and can only err towards "penetrating".
 
-The core climbs and derives the verdict (`core/native/ladder/verdict.hpp`). This module asks it, for
+The core climbs and derives the verdict (`core/native/ladder/climb.hpp`). This module asks it, for
 one pair or for many, and calls the rungs that it does not have: half spaces, curved shapes, convex
 parts and outlines in a plane.
 """

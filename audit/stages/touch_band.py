@@ -4,7 +4,7 @@ A gap is within the band if it is at most the tolerance. An overlap is within th
 translation of A, at most as long as the tolerance, ends it. The core looks for one out of the hulls
 or off the triangles that A crosses (`core/native/ladder/way_within.hpp`). An overlap of closed
 bodies is within it, too, if no ball thicker than the tolerance lies in both; one point of such a
-ball is the quick proof of the contrary (`core/native/ladder/thick_point.hpp`), else that is
+ball is the quick proof of the contrary (`core/native/ladder/touch_proof.hpp`), else that is
 searched (`explained.py`). Of other bodies the proof is a crossing pair of triangles that is deeper,
 or a wider gap around a body inside another, and a wide band is searched as the depth is.
 """

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace satcheck {
 
@@ -11,6 +12,7 @@ struct Vec3 {
   double x = 0, y = 0, z = 0;
 
   double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  double& at(int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
   bool operator==(const Vec3&) const = default;
 };
 
@@ -91,6 +93,7 @@ struct Aabb {
     min = {low.x < min.x ? low.x : min.x, low.y < min.y ? low.y : min.y, low.z < min.z ? low.z : min.z};
     max = {high.x > max.x ? high.x : max.x, high.y > max.y ? high.y : max.y, high.z > max.z ? high.z : max.z};
   }
+  // Whether all of the other box lies in this one; its sides may lie on sides of this one.
   bool contains(const Aabb& box) const {
     return min.x <= box.min.x && min.y <= box.min.y && min.z <= box.min.z && box.max.x <= max.x && box.max.y <= max.y &&
            box.max.z <= max.z;
@@ -99,7 +102,22 @@ struct Aabb {
     const Vec3 size = max - min;
     return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   }
+  Vec3 size() const { return max - min; }
+  Vec3 centre() const { return min * 0.5 + max * 0.5; }
+  double largest_coordinate() const { return larger(max_abs(min), max_abs(max)); }
+  Aabb widened(double by) const { return {min - Vec3{by, by, by}, max + Vec3{by, by, by}}; }
 };
+
+inline Aabb bounds_of(std::span<const Vec3> points) {  // empty without points
+  Aabb box;
+  for (const Vec3& p : points) box.include(p);
+  return box;
+}
+
+// How far a box reaches from its centre along a direction.
+inline double reach_along(Vec3 direction, Vec3 half) {
+  return std::fabs(direction.x) * half.x + std::fabs(direction.y) * half.y + std::fabs(direction.z) * half.z;
+}
 
 // Closed boxes: boxes that share only a face, edge or corner meet.
 inline bool meet(const Aabb& a, const Aabb& b) {

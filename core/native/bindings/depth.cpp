@@ -13,6 +13,7 @@
 
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
+#include "bindings/words.hpp"
 #include "convex/convex_hull.hpp"
 #include "depth/depth_search.hpp"
 #include "depth/inner_region.hpp"
@@ -41,21 +42,12 @@ std::optional<Polytope> checked_region(const Surface& solid, const Tuple3& seed,
   return region ? std::optional(convex_hull(region->vertices)) : std::nullopt;
 }
 
-const char* name_of(DepthStop stop) {
-  return stop == DepthStop::narrow ? "narrow" : stop == DepthStop::decided ? "decided" : "work spent";
-}
-
 }  // namespace
 
 void bind_depth(nb::module_& m) {
-  const auto tuples = [](const std::vector<Vec3>& points) {
-    std::vector<Tuple3> all;
-    for (const Vec3 p : points) all.push_back(to_tuple(p));
-    return all;
-  };
   nb::class_<InnerRegion>(m, "InnerRegion", R"(The hull of points inside a solid. Each triangle of its surface is farther along one of the normals than all of them.)")
-      .def_prop_ro("vertices", [=](const InnerRegion& region) { return tuples(region.vertices); })
-      .def_prop_ro("normals", [=](const InnerRegion& region) { return tuples(region.normals); });
+      .def_prop_ro("vertices", [](const InnerRegion& region) { return to_tuples(region.vertices); })
+      .def_prop_ro("normals", [](const InnerRegion& region) { return to_tuples(region.normals); });
   nb::class_<OverlapSet>(m, "OverlapSet", R"(The hull of all differences of a point of region b and a point of region a, by its facets. corners: numbers of vertices
 of a, and of b.)")
       .def_ro("a", &OverlapSet::a)

@@ -27,8 +27,6 @@
 #include "mesh/orient.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/transform.hpp"
-#include "ladder/placed_bounds.hpp"
-#include "ladder/stretch.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -151,8 +149,7 @@ when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing 
       .def_prop_ro("bounds",
                    [](const Mesh& mesh) {
                      if (mesh.vertices.empty()) throw std::invalid_argument("an empty mesh has no bounds");
-                     Aabb box;
-                     for (const Vec3& p : mesh.vertices) box.include(p);
+                     const Aabb box = bounds_of(mesh.vertices);
                      return std::make_tuple(to_tuple(box.min), to_tuple(box.max));
                    })
       .def_prop_ro("largest_coordinate",
@@ -232,8 +229,12 @@ std::vector<std::optional<Bounds>> bounds_of_placed(const nb::typed<nb::sequence
   std::vector<std::optional<Bounds>> bounds(meshes.size());
   const nb::gil_scoped_release release;
   parallel_for(meshes.size(), threads, [&](std::size_t i) {
-    if (const auto box = placed_bounds(*meshes[i], matrices[i])) {
-      bounds[i] = Bounds{to_tuple(box->min), to_tuple(box->max)};
+    if (meshes[i]->vertices.empty()) return;
+    try {
+      const Aabb box = placed_bounds(*meshes[i], matrices[i]);
+      bounds[i] = Bounds{to_tuple(box.min), to_tuple(box.max)};
+    } catch (const std::invalid_argument&) {  // bounds[i] stays empty
+    } catch (const std::overflow_error&) {
     }
   }, kTogether);
   return bounds;

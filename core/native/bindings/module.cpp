@@ -14,7 +14,7 @@
 #include "bindings/arguments.hpp"
 #include "bindings/tuples.hpp"
 #include "convex/shape.hpp"
-#include "ladder/words.hpp"
+#include "bindings/words.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck;

@@ -10,8 +10,8 @@
 
 #include "base/numeric_range.hpp"
 #include "convex/batch.hpp"
-#include "convex/signed_comparison.hpp"
-#include "ladder/words.hpp"
+#include "convex/exact_depth.hpp"
+#include "bindings/words.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck;

@@ -12,16 +12,13 @@
 #include "bindings/tuples.hpp"
 #include "exact/translation.hpp"
 #include "mesh/closing.hpp"
-#include "mesh/nearest_point.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/winding.hpp"
 #include "mesh_pair/boundary_contact.hpp"
-#include "mesh_pair/deviation.hpp"
-#include "mesh_pair/gap_comparison.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/reach.hpp"
-#include "ladder/words.hpp"
+#include "bindings/words.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -165,7 +162,8 @@ length. Decided exactly. Raises TooManySteps.)");
 is exact if nothing is rounded.)");
   m.def("deviation",
         [](const Mesh& surface_of, const Surface& solid, double tolerance) {
-          const Deviation d = deviation(surface_of, solid, tolerance);
+          Budget budget = Budget::that_stops(kNoEnd, interrupting());
+          const Deviation d = deviation(surface_of, solid, tolerance, budget);
           return std::make_tuple(d.lower, d.upper);
         },
         "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
@@ -175,7 +173,8 @@ most `tolerance` apart, unless the work limit was reached. Branch and bound over
         [](const Mesh& surface_of, const Surface& solid, double length, std::uint64_t work) {
           if (!solid.solid) throw std::invalid_argument("the surface is not a solid");
           if (!(length > 0)) throw std::invalid_argument("the length must be positive");
-          return reaches_deeper(surface_of, solid, length, work);
+          Budget budget = Budget::that_stops(work, interrupting());
+          return reaches_deeper(surface_of, solid, length, budget);
         },
         "surface_of"_a, "solid"_a, "length"_a, "work"_a, ReleaseGil(),
         R"(Whether a point of the triangles lies inside the solid, farther than `length` from its surface, to rounding. None:

@@ -12,8 +12,8 @@
 
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
+#include "bindings/words.hpp"
 #include "thickness/component_balls.hpp"
-#include "thickness/component_box.hpp"
 #include "thickness/face_fit.hpp"
 #include "thickness/shrunk.hpp"
 #include "thickness/thickness_proof.hpp"
@@ -24,10 +24,6 @@ using namespace nb::literals;
 
 namespace satcheck {
 namespace {
-
-const char* name_of(ThicknessStop stop) {
-  return stop == ThicknessStop::narrow ? "narrow" : stop == ThicknessStop::decided ? "decided" : "work spent";
-}
 
 std::optional<const char*> name_of(FaceFit fit) {
   switch (fit) {
@@ -103,7 +99,10 @@ belong to another component.)");
 digits of float64. "deeper": one does. "thin": none does. "fit": none does, and wherever they meet both are thicker
 than that, so that neither is a sheet or a wire that passes through the other. None: `work` steps, each about a
 nanosecond, do not decide that. The number is of the steps that it took. Swapping a and b changes nothing. ValueError for a surface that is not a solid.)");
-  m.def("free_when_shrunk", &free_when_shrunk, "a"_a, "b"_a, "most_a"_a, "most_b"_a, nb::call_guard<nb::gil_scoped_release>(),
+  const auto free = [](const Surface& a, const Surface& b, double most_a, double most_b) {
+    return free_when_shrunk(a, b, most_a, most_b, interrupting());
+  };
+  m.def("free_when_shrunk", free, "a"_a, "b"_a, "most_a"_a, "most_b"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(Whether two solids are free of each other when each vertex moves into its body, by most_a or most_b at most. No point
 is then deeper than that in both, and no point of one surface is deeper in the other body than the sum of both. False: not found.
 Swapping a and b with their lengths changes nothing. ValueError for a surface that is not a solid.)");

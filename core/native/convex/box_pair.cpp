@@ -3,7 +3,7 @@
 
 #include "convex/box_axes.hpp"
 #include "convex/pair_order.hpp"
-#include "convex/proof_noise.hpp"
+#include "convex/minkowski.hpp"
 
 namespace satcheck {
 

@@ -1,7 +1,11 @@
-// The penetration depth of two convex hulls: rounded from its exact value, and compared with a length.
+// The penetration depth of two convex hulls: rounded from its exact value, and compared with a length. The same comparison
+// for their signed distance.
 #pragma once
 
+#include <optional>
+
 #include "convex/exact_difference.hpp"
+#include "convex/shape.hpp"
 
 namespace satcheck {
 
@@ -11,5 +15,10 @@ ExactFigure exact_depth(const ExactDifference& difference);
 // The sign of depth - length, length >= 0, for hulls of any dimension. The depth is 0 if the hulls touch, and negative if
 // they are apart.
 int compare_depth(const ExactDifference& difference, const Dyadic& length);
+
+// Sign of (signed distance - length); a gap is > 0, a penetration < 0. The answer holds for the rounded world
+// coordinates of vertices, centres and axes. Empty for other curved shapes.
+std::optional<int> compare_signed_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                                           double length);
 
 }  // namespace satcheck

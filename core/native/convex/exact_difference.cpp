@@ -20,9 +20,7 @@ Vec3 rounded_unit(const DyadicVec& v) {
 }
 
 ExactDifference::ExactDifference(std::vector<Vec3> a, std::vector<Vec3> b) : a_(std::move(a)), b_(std::move(b)) {
-  Aabb box_a, box_b;
-  for (Vec3 p : a_) box_a.include(p);
-  for (Vec3 p : b_) box_b.include(p);
+  const Aabb box_a = bounds_of(a_), box_b = bounds_of(b_);
   scale_ = std::fmax(max_abs(box_a.max - box_b.min), max_abs(box_a.min - box_b.max));
 }
 

@@ -34,8 +34,8 @@ struct MinkowskiDifference {
   // The point of A - B farthest along `direction` (of any length except zero).
   SATCHECK_INLINE SupportPoint support(Vec3 direction) const {
     const Vec3 into_b = transpose_times(b_in_a.rotation, -direction);
-    const CorePoint on_a = map_a ? map_a->support(direction) : inlined_core_support(a, direction);
-    const CorePoint on_b = map_b ? map_b->support(into_b) : inlined_core_support(b, into_b);
+    const CorePoint on_a = map_a ? map_a->support(a.polytope.vertices, direction) : inlined_core_support(a, direction);
+    const CorePoint on_b = map_b ? map_b->support(b.polytope.vertices, into_b) : inlined_core_support(b, into_b);
     const Vec3 pb = b_in_a * on_b.point;
     return {on_a.point - pb, on_a.point, on_a.index, on_b.index};
   }
@@ -50,5 +50,28 @@ Vec3 offset_between(const Shape& a, const Pose& pose_a, const Shape& b, const Po
 
 // A's frame, with the recentred origin of a hull: p_world = placement * p_core.
 Pose core_placement(const Shape& shape, const Pose& pose);
+
+// The rounding error that a proof in float64 has to exceed: the largest distance that the rounding of a pose moves a vertex, plus the largest distance that the rounding of the
+// pair's relative pose moves its origin. Each term of a rotated coordinate is rounded 3 times, and the terms sum up to
+// the reach at most, which is sqrt(3) times the largest coordinate. As a vector this is 9 times that coordinate. The
+// vertex is rotated once, and its origin once more. Adding the translation rounds the sum. Rounded up.
+inline double placement_error(const Shape& shape, const Pose& pose) {
+  if (pose.rotation == Mat3{} && pose.translation == Vec3{}) return 0;
+  return kUnitRoundoff * (norm(pose.translation) + 20 * (max_abs(shape.origin) + shape.extent));
+}
+
+// The largest distance between the rounded origin of a hull and its exact position by the quaternion: 36 for the matrix
+// (kCurvedSupportError) times sqrt(3), plus the 9 from above; rounded up.
+inline double origin_error(const Shape& shape, const Pose& pose) {
+  return pose.rotation == Mat3{} ? 0 : 72 * kUnitRoundoff * max_abs(shape.origin);
+}
+
+// The error of lengths whose squares underflow. It matters only for points this close to each other.
+inline constexpr double kSquaresUnderflow = 1e-150;
+
+// The noise for cores with vertices, which are judged at their rounded world coordinates. `scale`: of A - B.
+inline double proof_noise(double scale, const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  return kSupportError * scale + placement_error(a, pose_a) + placement_error(b, pose_b) + kSquaresUnderflow;
+}
 
 }  // namespace satcheck

@@ -12,7 +12,7 @@
 #include "convex/exact_distance.hpp"
 #include "convex/pair_order.hpp"
 #include "convex/portal.hpp"
-#include "convex/proof_noise.hpp"
+#include "convex/minkowski.hpp"
 #include "convex/separating_face.hpp"
 #include "convex/world_hull.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "convex/polytope.hpp"
+#include "convex/convex_hull.hpp"
 
 namespace satcheck {
 

@@ -42,9 +42,7 @@ class Builder {
  public:
   Builder(const std::vector<Vec3>& points, Budget* budget)
       : points_(points), budget_(budget), next_above_(points.size(), none), facet_from_(points.size(), none) {
-    Aabb box;
-    for (const Vec3& p : points) box.include(p);
-    extent_ = box.max - box.min;
+    extent_ = bounds_of(points).size();
   }
 
   std::vector<Triangle> build(std::array<std::uint32_t, 4> simplex) {

@@ -80,9 +80,7 @@ std::vector<EdgeArc> arcs_of(const Polytope& p) {
 Shape make_hull(Polytope polytope) {
   Shape shape;
   shape.kind = ShapeKind::hull;
-  Aabb bounds;
-  for (Vec3 p : polytope.vertices) bounds.include(p);
-  shape.origin = exact_centre(bounds);
+  shape.origin = exact_centre(bounds_of(polytope.vertices));
   for (Vec3& p : polytope.vertices) p = p - shape.origin;
   shape.polytope = std::move(polytope);
   shape.arcs = arcs_of(shape.polytope);

@@ -10,7 +10,7 @@
 #include <mutex>
 
 #include "convex/box_frame.hpp"
-#include "convex/polytope.hpp"
+#include "convex/convex_hull.hpp"
 #include "convex/support_map.hpp"
 
 namespace satcheck {

@@ -120,7 +120,7 @@ class SupportMap::Builder {
   double margin_ = 0;
 };
 
-SupportMap::SupportMap(const std::vector<Vec3>& points) : points_(points) {
+SupportMap::SupportMap(const std::vector<Vec3>& points) {
   // Enough cells that most have one block.
   while (log_side_ < 6 && std::size_t{1} << 2 * log_side_ < 2 * points.size()) ++log_side_;
   side_ = 1 << log_side_;

@@ -22,16 +22,17 @@ class SupportMap {
   // Finite points, at least one.
   explicit SupportMap(const std::vector<Vec3>& points);
 
-  // The same point as support_index() over all points. For direction 0, any point.
-  SATCHECK_INLINE CorePoint support(Vec3 direction) const {
+  // The same point as support_index() over all points, which are those that the map was made of. For direction 0, any
+  // point.
+  SATCHECK_INLINE CorePoint support(const std::vector<Vec3>& points, Vec3 direction) const {
     const Cell cell = cells_[cell_of(direction)];
     const std::uint32_t* places = places_.data() + cell.first;
-    Best best = highest(places, direction);
+    Best best = highest(points, places, direction);
     for (std::uint32_t i = kBlock; i < cell.count; i += kBlock) {
-      const Best other = highest(places + i, direction);
+      const Best other = highest(points, places + i, direction);
       if (other.height > best.height) best = other;
     }
-    return {points_[best.index], best.index};
+    return {points[best.index], best.index};
   }
 
  private:
@@ -45,8 +46,8 @@ class SupportMap {
   };
   class Builder;
 
-  SATCHECK_INLINE Best highest(const std::uint32_t* i, Vec3 direction) const {
-    const Vec3* p = points_.data();
+  SATCHECK_INLINE static Best highest(const std::vector<Vec3>& points, const std::uint32_t* i, Vec3 direction) {
+    const Vec3* p = points.data();
     const LaneDirection d(direction);
     const Lanes low = d.heights(p[i[0]], p[i[1]], p[i[2]], p[i[3]]);
     const Lanes high = d.heights(p[i[4]], p[i[5]], p[i[6]], p[i[7]]);
@@ -73,7 +74,6 @@ class SupportMap {
   double side_ = 1;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> places_;  // vertices, cell by cell, ascending
-  std::vector<Vec3> points_;
 };
 
 // The map of a shape. It is made after enough queries to pay off. Copies share it.

@@ -9,19 +9,15 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <queue>
 #include <utility>
 #include <vector>
 
 #include "base/rounding.hpp"
-#include "depth/corner_plane.hpp"
-#include "depth/exact_centre.hpp"
 #include "depth/forbidden_union.hpp"
 #include "depth/overlap_proof.hpp"
-#include "depth/translation_box.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/moved_surface.hpp"
-#include "mesh_pair/wall_corner.hpp"
+#include "depth/planes.hpp"
 
 namespace satcheck {
 namespace {
@@ -83,24 +79,23 @@ class Search {
 
   DepthInterval run() {
     ask_meshes({0, 0, 0});
-    push({0, 0, 0}, in_plane(Vec3{1, 1, 1} * root_half(result_.upper)), {}, 0, record_.add_root());
+    push({{0, 0, 0}, in_plane(Vec3{1, 1, 1} * root_half(result_.upper)), {}, 0, record_.add_root()});
     double open_from = result_.upper;
     while (!open_.empty()) {
-      TranslationBox box = open_.top();
-      open_.pop();
-      reached_ = open_from = box.key;
+      reached_ = open_from = -open_.key();
+      TranslationBox box = open_.pop();
       if (proven() >= enough()) break;
       if (proven() >= goal_.limit) {
-        result_.stop = DepthStop::decided;
+        result_.stop = SearchStop::decided;
         break;
       }
       if (budget_.is_spent()) {
-        result_.stop = DepthStop::work_spent;
+        result_.stop = SearchStop::work_spent;
         break;
       }
       if (!scanned_ && budget_.spent() >= goal_.work / kScanAfter) {
-        scan_spheres(std::fmax(box.key, result_.upper / kSmallestSphere));
-        push(box.centre, box.half, std::move(box.sets), box.seen, box.part);
+        scan_spheres(std::fmax(reached_, result_.upper / kSmallestSphere));
+        push(std::move(box));
         continue;
       }
       ++result_.boxes;
@@ -139,24 +134,22 @@ class Search {
   // Longer translations need not be forbidden.
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
-  void push(Vec3 centre, Vec3 half, std::vector<std::shared_ptr<const ForbiddenSet>> sets, std::uint32_t seen,
-            std::uint32_t part) {
-    TranslationBox box{0, centre, half, std::move(sets), seen, next_number_++, part};
-    box.key = norm(box.nearest_to_origin());
-    if (box.key >= result_.upper) return record_.set_far(part);
+  void push(TranslationBox box) {
+    const double nearest = norm(box.nearest_to_origin());
+    if (nearest >= result_.upper) return record_.set_far(box.part);
     budget_.spend(kBoxWork);
-    open_.push(std::move(box));
+    open_.push(-nearest, std::move(box));
   }
 
   void split(const TranslationBox& box) {
     const Vec3 h = box.half;
     const int axis = h.x >= h.y && h.x >= h.z ? 0 : h.y >= h.z ? 1 : 2;
     Vec3 half = h, shift;
-    (axis == 0 ? half.x : axis == 1 ? half.y : half.z) *= 0.5;
-    (axis == 0 ? shift.x : axis == 1 ? shift.y : shift.z) = half[axis];
+    half.at(axis) *= 0.5;
+    shift.at(axis) = half[axis];
     const std::uint32_t first = record_.halve(box.part);
-    push(box.centre - shift, half, box.sets, box.seen, first);
-    push(box.centre + shift, half, box.sets, box.seen, first + 1);
+    push({box.centre - shift, half, box.sets, box.seen, first});
+    push({box.centre + shift, half, box.sets, box.seen, first + 1});
   }
 
   // Whether one set forbids all translations in the box that are short enough to matter.
@@ -190,10 +183,6 @@ class Search {
     return overlap_relation(moved_.at(t, &budget_), b_, &budget_);
   }
 
-  static bool is_free(const MeshRelation& r) {
-    return r.proven && (r.relation == Relation::separated || r.relation == Relation::touching);
-  }
-
   void take(Vec3 way_out) {
     if (norm(way_out) >= result_.upper) return;
     result_.upper = norm(way_out);
@@ -210,7 +199,7 @@ class Search {
       if (!(exit.depth > 0)) {
         ++asked;
         const MeshRelation relation = relation_at(t);
-        if (is_free(relation)) return take(t);
+        if (relation.is_free()) return take(t);
         OverlapProof proof = proof_at(t, relation);
         if (proof.set.empty()) return;
         exit = proof.set.exit(t);
@@ -241,7 +230,7 @@ class Search {
         if (!(in_plane(way) == way)) continue;
         if (budget_.is_spent()) return;
         const Vec3 t = way * radius;
-        if (!sets_.holds(t) && is_free(relation_at(t))) take(t);
+        if (!sets_.holds(t) && relation_at(t).is_free()) take(t);
       }
     }
     if (result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
@@ -252,7 +241,7 @@ class Search {
   void fit(Vec3 t) {
     for (int step = 0; step < kStepsOut; ++step) {
       const MeshRelation relation = relation_at(t);
-      if (is_free(relation)) return take(t);
+      if (relation.is_free()) return take(t);
       CornerPlane nearest{INFINITY, -1, {}};
       for (const CornerPlane& plane : met_planes(relation)) {
         if (plane.distance(t) > 0 && plane.distance(t) < nearest.distance(t)) nearest = plane;
@@ -279,7 +268,7 @@ class Search {
     for (const CornerPlane& plane : met_planes(relation_at(result_.way_out * (1 - kSnap)))) {
       const Vec3 t = in_plane(plane.normal * plane.height);
       const bool agrees = norm(t - result_.way_out) <= kSnap * length;
-      if (agrees && norm(t) < result_.upper && is_free(relation_at(t))) take(t);
+      if (agrees && norm(t) < result_.upper && relation_at(t).is_free()) take(t);
     }
   }
 
@@ -313,8 +302,7 @@ class Search {
   ForbiddenUnion sets_;
   DepthRecord record_;
   std::vector<RegionPair> regions_;  // of each set, where the search writes down its proof
-  std::priority_queue<TranslationBox, std::vector<TranslationBox>, Later> open_;
-  std::uint64_t next_number_ = 0;
+  BestFirst<TranslationBox> open_;  // those nearest to the origin first
   bool scanned_ = false;
 };
 
@@ -330,23 +318,16 @@ bool comes_first(const Mesh& a, const Mesh& b) {
   return a.triangles <= b.triangles;
 }
 
-DepthInterval search_near_origin(const Surface& a, const Surface& b, const DepthGoal& goal) {
-  const bool turned = !comes_first(a.mesh, b.mesh);
-  Search search(turned ? b : a, turned ? a : b, goal);
-  DepthInterval result = search.run();
-  result.proof = search.proof(turned);
-  if (turned) result.way_out = Vec3{} - result.way_out;
-  return result;
-}
-
 }  // namespace
 
 DepthInterval search_depth(const Surface& a, const Surface& b, const DepthGoal& goal) {
-  const Vec3 centre = exact_centre(a, b);
-  if (centre == Vec3{}) return search_near_origin(a, b, goal);
-  MovedSurface moved_a(a), moved_b(b);
-  DepthInterval result = search_near_origin(moved_a.at(-centre), moved_b.at(-centre), goal);
-  if (result.proof) result.proof->origin = centre;
+  const NearOrigin pair(a, b);
+  const bool turned = !comes_first(pair.a.mesh, pair.b.mesh);
+  Search search(turned ? pair.b : pair.a, turned ? pair.a : pair.b, goal);
+  DepthInterval result = search.run();
+  result.proof = search.proof(turned);
+  if (result.proof) result.proof->origin = pair.centre;
+  if (turned) result.way_out = Vec3{} - result.way_out;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/best_first.hpp"
 #include "base/budget.hpp"
 #include "depth/depth_proof.hpp"
 #include "mesh/surface.hpp"
@@ -24,12 +25,6 @@ struct DepthGoal {
   Poll poll = {};
 };
 
-enum class DepthStop : std::uint8_t {
-  narrow,      // the interval is as narrow as requested
-  decided,     // it is not, but its lower end is at least the limit, up to rounding
-  work_spent,  // the work was spent first
-};
-
 struct DepthInterval {
   double lower = 0, upper = INFINITY;
   // way_out: a translation of A after which the meshes have no common interior; A's coordinates are rounded once. Only
@@ -38,7 +33,7 @@ struct DepthInterval {
   Vec3 way_out;
   // A proven upper bound of the depth: `upper` plus the rounding of the moved coordinates and of the length.
   double bound = INFINITY;
-  DepthStop stop = DepthStop::narrow;
+  SearchStop stop = SearchStop::narrow;  // decided: the lower end is at least the limit, up to rounding
   std::uint64_t work = 0;
   std::uint32_t boxes = 0, mesh_tests = 0, sets = 0;
   std::optional<DepthProof> proof;  // if it was asked for, and found

@@ -23,9 +23,6 @@ constexpr double kMostFactor = 64;
 // normals 2 a coordinate, products, their sum and the difference 8, over three coordinates.
 constexpr double kPartError = 32 * kUnitRoundoff;
 
-// The reach of a box from its centre along a direction.
-double spread_of(Vec3 half, Vec3 n) { return std::fabs(n.x) * half.x + std::fabs(n.y) * half.y + std::fabs(n.z) * half.z; }
-
 // The length of a small normal may be out of range; that of its multiple is not.
 Vec3 unit(Vec3 normal) {
   const Vec3 scaled = normal * (1 / max_abs(normal));
@@ -47,7 +44,7 @@ ForbiddenSet::Reach ForbiddenSet::reach(Vec3 c, Vec3 h) const {
   if (empty()) return {-INFINITY, false};
   Reach result{INFINITY, true};
   for (std::size_t k = 0; k < normal.size(); ++k) {
-    const double middle = dot(normal[k], c), spread = spread_of(h, normal[k]);
+    const double middle = dot(normal[k], c), spread = reach_along(normal[k], h);
     if (middle + spread < offset[k]) continue;
     if (middle - spread >= offset[k]) return {-INFINITY, false};
     result.length = std::fmin(result.length, offset[k]);
@@ -61,7 +58,7 @@ ForbiddenSet ForbiddenSet::within(Vec3 c, Vec3 h) const {
   part.box = box;
   part.number = number;
   for (std::size_t k = 0; k < normal.size(); ++k) {
-    if (dot(normal[k], c) + spread_of(h, normal[k]) < offset[k]) continue;
+    if (dot(normal[k], c) + reach_along(normal[k], h) < offset[k]) continue;
     part.normal.push_back(normal[k]);
     part.offset.push_back(offset[k]);
     part.facet.push_back(facet[k]);

@@ -17,14 +17,38 @@ constexpr std::size_t kSetsLeft = 24;
 // How far a point is moved beyond a set, in half sizes of the box.
 constexpr double kIntoTheOpen = 1.0 / 16;
 
+// The first box is larger than necessary by an odd factor, so that its halves do not end exactly at facets.
+constexpr double kRootSize = 1.0309;
+constexpr int kShortDigits = 20;
+
 std::uint64_t work_of(const ForbiddenSet& set) { return kPlaneWork * set.normal.size(); }
 
-// The reach of the box from its centre along a direction.
-double spread(const TranslationBox& box, Vec3 n) {
-  return std::fabs(n.x) * box.half.x + std::fabs(n.y) * box.half.y + std::fabs(n.z) * box.half.z;
+}  // namespace
+
+Vec3 TranslationBox::nearest_to_origin() const {
+  const auto clamp = [](double c, double h) { return c - h > 0 ? c - h : c + h < 0 ? c + h : 0.0; };
+  return {clamp(centre.x, half.x), clamp(centre.y, half.y), clamp(centre.z, half.z)};
 }
 
-}  // namespace
+bool TranslationBox::contains(Vec3 t) const {
+  const Vec3 d = t - centre;
+  return std::fabs(d.x) <= half.x && std::fabs(d.y) <= half.y && std::fabs(d.z) <= half.z;
+}
+
+Vec3 in_plane(Vec3 t, int across) {
+  switch (across) {
+    case 0: return {0, t.y, t.z};
+    case 1: return {t.x, 0, t.z};
+    case 2: return {t.x, t.y, 0};
+    default: return t;
+  }
+}
+
+double root_half(double length) {
+  int exponent = 0;
+  const double fraction = std::frexp(kRootSize * length, &exponent);
+  return std::ldexp(std::ceil(std::ldexp(fraction, kShortDigits)), exponent - kShortDigits);
+}
 
 double ForbiddenUnion::covered_by_one(TranslationBox& box, double least, double most) const {
   const Aabb bounds = box.bounds();
@@ -66,7 +90,7 @@ double ForbiddenUnion::covered_with(const ForbiddenSet& set, const TranslationBo
   for (std::size_t k = 0; k < set.normal.size(); ++k) {
     const Vec3 n = set.normal[k];
     const double middle = dot(n, box.centre), at = set.offset[k];
-    if (middle + spread(box, n) < at) continue;
+    if (middle + reach_along(n, box.half) < at) continue;
     if (at >= least) {
       length = std::fmin(length, at);
     } else if (middle >= at || cuts_.size() == kMostCuts) {
@@ -121,7 +145,7 @@ Vec3 ForbiddenUnion::on_facets(const TranslationBox& box) const {
     for (std::size_t k = 0; k < set->normal.size(); ++k) {
       const Vec3 n = set->normal[k];
       const double facet = set->facet[k];
-      if (std::fabs(facet - dot(n, box.centre)) <= spread(box, n)) t = t + n * (facet - dot(n, t));
+      if (std::fabs(facet - dot(n, box.centre)) <= reach_along(n, box.half)) t = t + n * (facet - dot(n, t));
     }
   }
   return in_plane(t, across_);

@@ -8,10 +8,30 @@
 #include <vector>
 
 #include "depth/forbidden_set.hpp"
-#include "depth/translation_box.hpp"
-#include "mesh_pair/wall_corner.hpp"
+#include "depth/planes.hpp"
 
 namespace satcheck {
+
+struct TranslationBox {
+  Vec3 centre, half;
+  // Those of the first `seen` forbidden sets that may contain a part of it. Facets that the box does not reach may be left
+  // out of them.
+  std::vector<std::shared_ptr<const ForbiddenSet>> sets;
+  std::uint32_t seen;
+  std::uint32_t part = 0;  // of the record
+  std::uint32_t held_by = 0;  // the set that holds the most of it
+
+  Vec3 nearest_to_origin() const;
+  bool contains(Vec3 t) const;
+  Aabb bounds() const { return {centre - half, centre + half}; }
+};
+
+// The part of a translation in the plane across an axis of the world, 0, 1 or 2; all of it for -1.
+Vec3 in_plane(Vec3 t, int across);
+
+// Half the side of a cube around the origin that contains all translations of at most this length. It has so few digits
+// that centres are exact after about 90 halvings, 30 for each axis.
+double root_half(double length);
 
 // Lengths are those of translations.
 class ForbiddenUnion {

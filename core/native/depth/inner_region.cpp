@@ -66,13 +66,13 @@ class Growth {
       : solid_(solid), seed_(seed), metric_(metric), budget_(budget) {
     Aabb box = solid.bvh.nodes[0].box;
     if (within) {
-      for (const Vec3& p : within->vertices) box.include(p);
+      box.include(bounds_of(within->vertices));
       for (std::size_t f = 0; f < within->face_count(); ++f) {
         const Vec3 normal = within->face_normal[f], corner = within->vertices[within->face_vertex[within->face_offset[f]]];
         add_plane(normal, dot(normal, corner - seed));
       }
     }
-    pad_ = kPlaneError * std::fmax(max_abs(box.min), max_abs(box.max));
+    pad_ = kPlaneError * box.largest_coordinate();
     for (int axis = 0; axis < 3 && !within; ++axis) {
       const Vec3 unit{axis == 0 ? 1.0 : 0, axis == 1 ? 1.0 : 0, axis == 2 ? 1.0 : 0};
       add_plane(unit, (box.max - seed)[axis]);
@@ -110,11 +110,10 @@ class Growth {
     const Aabb& box = solid_.bvh.nodes[index].box;
     if (is_beyond(box)) return;
     // The box of the node in the metric's frame contains the image of the node.
-    const Vec3 centre = (box.min * 0.5 + box.max * 0.5) - seed_, half = (box.max - box.min) * 0.5;
+    const Vec3 centre = box.centre() - seed_, half = box.size() * 0.5;
     double squared = 0;
     for (const Vec3& row : metric_.row) {
-      const double reach = std::fabs(row.x) * half.x + std::fabs(row.y) * half.y + std::fabs(row.z) * half.z;
-      const double gap = std::fabs(dot(row, centre)) - reach;
+      const double gap = std::fabs(dot(row, centre)) - reach_along(row, half);
       if (gap > 0) squared += gap * gap;
     }
     queue_.push({squared, index, false});
@@ -144,12 +143,8 @@ class Growth {
   }
 
   bool is_beyond(const Aabb& box) {
-    const Vec3 centre = (box.min * 0.5 + box.max * 0.5) - seed_, half = (box.max - box.min) * 0.5;
-    return is_beyond_any([&](const Plane& p) {
-      const Vec3 n = p.normal;
-      const double reach = std::fabs(n.x) * half.x + std::fabs(n.y) * half.y + std::fabs(n.z) * half.z;
-      return dot(n, centre) - reach >= p.offset;
-    });
+    const Vec3 centre = box.centre() - seed_, half = box.size() * 0.5;
+    return is_beyond_any([&](const Plane& p) { return dot(p.normal, centre) - reach_along(p.normal, half) >= p.offset; });
   }
 
   bool is_beyond(const Corners& c) {
@@ -215,7 +210,7 @@ class Growth {
     if (corner.size() < 4 || !are_in_range(corner)) return std::nullopt;
     InnerRegion result{std::move(corner), {}, {}};
     for (const Plane& p : planes_) result.normals.push_back(p.normal);
-    for (const Vec3& p : result.vertices) result.box.include(p);
+    result.box = bounds_of(result.vertices);
     return result;
   }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "convex/polytope.hpp"
+#include "convex/convex_hull.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {

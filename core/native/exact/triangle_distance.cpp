@@ -87,12 +87,7 @@ Vec3 normal_of(const Corners& t) {
 Vec3 nearest_on_triangle(Vec3 p, const Corners& t) { return nearest_on_triangle(p, t, normal_of(t)); }
 
 NearestPoints triangle_distance(const Corners& a, const Corners& b, Budget* budget) {
-  const auto box = [](const Corners& t) {
-    Aabb result;
-    for (const Vec3& p : t) result.include(p);
-    return result;
-  };
-  if (meet(box(a), box(b))) {
+  if (meet(bounds_of(a), bounds_of(b))) {
     const TriangleContact contact = classify(a, b, budget);
     if (contact != TriangleContact::disjoint) {
       const Vec3 p = contact == TriangleContact::crossing ? crossing_point(a, b) : contact_point(a, b);

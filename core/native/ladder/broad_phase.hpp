@@ -10,9 +10,12 @@
 
 namespace satcheck {
 
+// A proven lower bound of the distance of two closed boxes: 0 exactly when they meet.
+double box_gap(const Aabb& a, const Aabb& b);
+
 using IndexPair = std::array<std::uint32_t, 2>;
 
-// A query for close pairs. reach: two boxes are close if their gap (world_box.hpp) is at most the sum of their reaches.
+// A query for close pairs. reach: two boxes are close if box_gap() is at most the sum of their reaches.
 // kind: pairs of boxes whose kinds are in `exempt_kinds` are left out, and so are the pairs in `exempt`. In both lists
 // the lower number comes first, and a kind may be paired with itself.
 struct CloseQuery {

@@ -7,11 +7,11 @@
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "convex/exact_depth.hpp"
 #include "convex/hulls_apart.hpp"
 #include "mesh_pair/open_surfaces.hpp"
-#include "ladder/thick_point.hpp"
 #include "ladder/touch_proof.hpp"
-#include "ladder/world_box.hpp"
+#include "ladder/broad_phase.hpp"
 
 namespace satcheck {
 namespace {
@@ -30,13 +30,6 @@ constexpr std::size_t kManyVertices = 8192;
 // A body is cut to a region for one pair only if the region is at most this share of its box, because cutting has a
 // cost.
 constexpr double kLittle = 0.5;
-
-bool holds(const Aabb& outer, const Aabb& inner) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(outer.min[axis] <= inner.min[axis] && inner.max[axis] <= outer.max[axis])) return false;
-  }
-  return true;
-}
 
 std::optional<ContactPair> crossing_of(const MeshRelation& r) {
   if (r.triangle_a == kNoTriangle || r.triangle_b == kNoTriangle) return {};
@@ -160,11 +153,7 @@ class Climber {
   }
 
   double largest_coordinate() const {
-    double largest = 0;
-    for (const Aabb& box : {request_.a->bounds(), request_.b->bounds()}) {
-      largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
-    }
-    return largest;
+    return larger(request_.a->bounds().largest_coordinate(), request_.b->bounds().largest_coordinate());
   }
 
   // For one large pair, hulls cost more than scans of the vertices.
@@ -193,7 +182,7 @@ class Climber {
   }
 
   bool boxes_nest() const {
-    return holds(request_.a->bounds(), request_.b->bounds()) || holds(request_.b->bounds(), request_.a->bounds());
+    return request_.a->bounds().contains(request_.b->bounds()) || request_.b->bounds().contains(request_.a->bounds());
   }
 
   template <class Make>
@@ -206,8 +195,7 @@ class Climber {
 
   // The region of surfaces that matter for the relation to this body, and for gaps up to the limit.
   Aabb reach_of(PlacedGeometry& body) const {
-    const double reach = 2 * request_.gap_limit;
-    return {body.bounds().min - Vec3{reach, reach, reach}, body.bounds().max + Vec3{reach, reach, reach}};
+    return body.bounds().widened(2 * request_.gap_limit);
   }
 
   // Whether only a small part of each body can matter for the other, and no other stage needs the rest.
@@ -272,6 +260,41 @@ class Climber {
   Climb climb_;
 };
 
+Verdict apart(double gap, bool settled = true) { return {Relation::separated, settled, true, gap, {}}; }
+
+bool has_common_interior(Relation relation) {
+  return relation != Relation::separated && relation != Relation::touching;
+}
+
+Verdict by_triangles(const Climb& climb) {
+  const MeshRelation& surfaces = *climb.triangles;
+  Verdict verdict{surfaces.relation, true, surfaces.proven && !surfaces.hole, 0, {}};
+  if (!surfaces.decided) return verdict;
+  if (has_common_interior(surfaces.relation)) {
+    verdict.band = climb.way_within ? climb.way_within->side : BandSide::deeper;
+  }
+  return verdict;
+}
+
+BandSide band_of_convex_bodies(const ClimbRequest& request, const PairResult& hulls) {
+  const double tolerance = request.tolerance;
+  if (tolerance == 0 || -hulls.upper > tolerance) return BandSide::deeper;
+  if (-hulls.lower <= tolerance) return BandSide::within;
+  const auto side = compare_signed_distance(*request.a->hull_shape(), {}, *request.b->hull_shape(), {}, -tolerance);
+  if (!side) return BandSide::open;
+  return *side >= 0 ? BandSide::within : BandSide::deeper;
+}
+
+// The surfaces differ from the hulls by the rounding of the pose. If nesting reports no common interior, the bodies can
+// only graze each other, and the hulls have already decided that.
+Verdict by_convex_hulls(const ClimbRequest& request, const Climb& climb, const PairResult& hulls) {
+  const double gap = std::fmax(hulls.has_distance ? hulls.lower : 0.0, 0.0);
+  if (hulls.outcome == Outcome::separated) return apart(gap);
+  if (hulls.outcome == Outcome::touching) return {Relation::touching, true, true, gap, {}};
+  const bool nested = climb.nesting && has_common_interior(*climb.nesting);
+  return {nested ? *climb.nesting : Relation::penetrating, true, true, gap, band_of_convex_bodies(request, hulls)};
+}
+
 }  // namespace
 
 Climb climb(const ClimbRequest& request, Rung first, Rung last, const Poll& poll) {
@@ -292,6 +315,27 @@ std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& req
     }
   }, together);
   return climbs;
+}
+
+const PairResult* signed_distance(const Climb& climb) {
+  return climb.both_convex && climb.hulls && climb.hulls->outcome != Outcome::undecided ? &*climb.hulls : nullptr;
+}
+
+const OpenHole* hole_in_the_way(const Climb& climb) {
+  return climb.triangles && climb.triangles->hole ? &*climb.triangles->hole : nullptr;
+}
+
+double gap_of_hulls(const Climb& climb) {
+  return std::fmax(climb.hulls->has_distance ? climb.hulls->lower : 0.0, climb.box_gap);
+}
+
+Verdict verdict_of(const ClimbRequest& request, const Climb& climb) {
+  if (climb.triangles) return by_triangles(climb);
+  if (const PairResult* convex = signed_distance(climb)) return by_convex_hulls(request, climb, *convex);
+  if (climb.hulls && climb.hulls->outcome == Outcome::separated) return apart(gap_of_hulls(climb));
+  if (climb.boxes == BoxOutcome::apart) return apart(std::nextafter(request.gap_limit, INFINITY));
+  if (climb.box_gap > 0) return apart(climb.box_gap, climb.box_gap > request.gap_limit);
+  return {};
 }
 
 }  // namespace satcheck

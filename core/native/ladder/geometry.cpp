@@ -1,7 +1,6 @@
 #include "convex/convex_hull.hpp"
 #include "mesh/transform.hpp"
 #include "ladder/geometry.hpp"
-#include "ladder/placed_bounds.hpp"
 
 #include <stdexcept>
 
@@ -29,8 +28,7 @@ Geometry::Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain, OpenParts
 const Aabb& Geometry::bounds() {
   const Lock lock(mutex_);
   if (!bounds_) {
-    bounds_.emplace();
-    for (const Vec3& p : mesh_->vertices) bounds_->include(p);
+    bounds_ = bounds_of(mesh_->vertices);
   }
   return *bounds_;
 }
@@ -79,20 +77,9 @@ std::shared_ptr<Surface> Geometry::surface_of(Mesh placed) {
 
 const Aabb& PlacedGeometry::bounds() {
   std::call_once(bounded_, [&] {
-    Aabb box;
-    if (!transform_) {
-      box = shared_->bounds();
-    } else if (const auto placed = placed_bounds(*shared_->mesh(), *transform_)) {
-      box = *placed;
-    } else {
-      for (const Vec3& p : mesh()->vertices) box.include(p);
-    }
-    Aabb both = box;
-    if (around_) both.include(*around_);
-    if (around_ && !(both.min == around_->min && both.max == around_->max)) {
-      throw std::invalid_argument("the bounds do not hold the mesh as it is placed");
-    }
-    bounds_ = both;
+    const Aabb box = transform_ ? placed_bounds(*shared_->mesh(), *transform_) : shared_->bounds();
+    if (around_ && !around_->holds(box)) throw std::invalid_argument("the bounds do not hold the mesh as it is placed");
+    bounds_ = around_.value_or(box);
   });
   return bounds_;
 }

@@ -8,13 +8,12 @@
 #include <mutex>
 #include <optional>
 
+#include "ladder/oriented_box.hpp"
 #include "mesh/hull_points.hpp"
 #include "mesh/surface.hpp"
-#include "ladder/oriented_box.hpp"
+#include "mesh/transform.hpp"
 
 namespace satcheck {
-
-using Matrix = std::array<double, 16>;  // 4x4 by rows, for column vectors
 
 // The data that all bodies with one mesh share, in file coordinates.
 class Geometry {

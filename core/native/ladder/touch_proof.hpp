@@ -1,8 +1,10 @@
-// Lower bounds of the depth of an overlap that need no search. The touch band uses them first.
+// What shows without a search that a touch band does not explain an overlap: lower bounds of its depth, and a point deep in
+// both bodies.
 #pragma once
 
-#include "mesh_pair/mesh_pair.hpp"
+#include "convex/narrow_phase.hpp"
 #include "ladder/geometry.hpp"
+#include "mesh_pair/mesh_pair.hpp"
 
 namespace satcheck {
 
@@ -20,5 +22,13 @@ double nested_depth(PlacedGeometry& a, PlacedGeometry& b, const Poll& poll = {})
 
 // The bound that applies to this relation. largest: the largest |coordinate| of both. Throws BudgetSpent.
 double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& relation, Budget* budget = nullptr);
+
+// Whether a point deeper than `least` in both solids was found. False: there may still be one. relation: with a common
+// interior. largest: the largest |coordinate| of both. Throws BudgetSpent.
+bool has_thick_point(const Surface& a, const Surface& b, const MeshRelation& relation, double largest, double least,
+                     Budget* budget = nullptr);
+
+// The same for convex solids that overlap, by the planes of their triangles. hulls: their signed distance.
+bool has_thick_point(const Mesh& a, const Mesh& b, const PairResult& hulls, double least);
 
 }  // namespace satcheck

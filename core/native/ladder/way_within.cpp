@@ -5,9 +5,8 @@
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
 #include "convex/narrow_phase.hpp"
-#include "convex/signed_comparison.hpp"
+#include "convex/exact_depth.hpp"
 #include "exact/translation.hpp"
-#include "mesh/surface_order.hpp"
 #include "mesh/topology.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/moved_surface.hpp"
@@ -44,10 +43,6 @@ class Trials {
   Budget& budget_;
 };
 
-bool is_free(const MeshRelation& found) {
-  return found.proven && (found.relation == Relation::separated || found.relation == Relation::touching);
-}
-
 // A translation that frees A also frees B in the opposite direction, up to rounding. A way out has to do both, so that
 // the order of the bodies does not matter.
 class Search {
@@ -60,8 +55,7 @@ class Search {
     if (!found.has_distance || (found.outcome != Outcome::penetrating && found.outcome != Outcome::touching)) return {};
     const double upper = found.outcome == Outcome::penetrating ? -found.lower : 0.0;
     hulls_are_within_ = upper <= tolerance_ || (-found.upper <= tolerance_ && compare_hulls() >= 0);
-    double largest = 0;
-    for (const Aabb& box : {a_.bounds(), b_.bounds()}) largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
+    const double largest = larger(a_.bounds().largest_coordinate(), b_.bounds().largest_coordinate());
     for (const double length : {upper, upper + chain_rounding(largest), tolerance_}) {
       if (!(0 < length && length <= tolerance_)) continue;
       if (const auto move = way_out(found.normal * -length)) return move;
@@ -75,7 +69,7 @@ class Search {
     for (const Vec3 away : ways_off(crossing)) {
       const Vec3 there = at + away * (tolerance_ / kWalls);
       const MeshRelation found = trials_.after(there);
-      if (is_free(found)) {
+      if (found.is_free()) {
         if (const auto move = way_out(there)) return move;
       }
       if (found.triangle_a == kNoTriangle || found.triangle_b == kNoTriangle) continue;
@@ -125,7 +119,7 @@ class Search {
       if (!is_short && (hidden_ || !(scaled_norm(candidate) <= tolerance_ * kToRounding))) {
         continue;
       }
-      if (!is_free(trials_.after(candidate)) || !is_free(Trials(*of_b_, *of_a_, budget_).after(-candidate))) continue;
+      if (!trials_.after(candidate).is_free() || !Trials(*of_b_, *of_a_, budget_).after(-candidate).is_free()) continue;
       if (is_short) return candidate;
       hidden_ = true;
     }

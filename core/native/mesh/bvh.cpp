@@ -38,7 +38,7 @@ std::uint64_t spread_bits(std::uint64_t x) {
 class MortonCurve {
  public:
   explicit MortonCurve(const Aabb& box) : low_(box.min) {
-    const double scale = (kLastCell + 1) / max_abs(box.max - box.min);
+    const double scale = (kLastCell + 1) / max_abs(box.size());
     scale_ = std::isfinite(scale) ? scale : 0;
   }
   std::uint64_t code(Vec3 p) const {
@@ -150,7 +150,6 @@ Bvh build(std::vector<Keyed> items, BoxOf box_of, unsigned threads) {
   return bvh;
 }
 
-Vec3 centre(const Aabb& box) { return box.min * 0.5 + box.max * 0.5; }
 
 // A bit for each side of a region: lower and upper along x, along y, along z.
 using Sides = std::uint8_t;
@@ -211,7 +210,7 @@ std::vector<BvhNode> beside(const std::vector<BvhNode>& tree, const std::vector<
 // 0: compact. 1, 2, 3: long along x, y or z. 4, 5, 6: flat across x, y or z.
 std::uint64_t form_of(const Aabb& box) {
   constexpr double kElongated = 4;  // times as long as the next axis
-  const Vec3 size = box.max - box.min;
+  const Vec3 size = box.size();
   int axis[3] = {0, 1, 2};
   std::sort(axis, axis + 3, [&](int i, int j) { return size[i] != size[j] ? size[i] < size[j] : i < j; });
   if (size[axis[1]] * kElongated < size[axis[2]]) return 1 + static_cast<std::uint64_t>(axis[2]);
@@ -224,15 +223,14 @@ std::uint64_t form_of(const Aabb& box) {
 Bvh build_bvh(const Mesh& mesh, unsigned threads) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (count == 0) return {};
-  Aabb bounds;
-  for (const Vec3& p : mesh.vertices) bounds.include(p);
+  const Aabb bounds = bounds_of(mesh.vertices);
   const MortonCurve curve(bounds);
   const auto box_of = [&](std::uint32_t t) { return triangle_box(mesh, t); };
   std::vector<Keyed> items = with_room<Keyed>(count);
   items.resize(count);
   const auto place_on_curve = [&](std::size_t i) {
     const auto t = static_cast<std::uint32_t>(i);
-    items[t] = {curve.code(centre(box_of(t))), t};
+    items[t] = {curve.code(box_of(t).centre()), t};
   };
   parallel_for(count, threads, place_on_curve, kTaskSize);
   return build(std::move(items), box_of, threads);
@@ -251,7 +249,7 @@ Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads) {
     const auto [a, b, c] = mesh.triangles[t];
     const unsigned common = sides[a] & sides[b] & sides[c];
     if (common == 0) {
-      items.push_back({curve.code(clamped(centre(box_of(t)), region)), t});
+      items.push_back({curve.code(clamped(box_of(t).centre(), region)), t});
       continue;
     }
     const int side = std::countr_zero(common);
@@ -283,7 +281,7 @@ std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes) {
   for (const Aabb& box : boxes) bounds.include(box);
   const MortonCurve curve(bounds);
   std::vector<Keyed> items;
-  for (const Aabb& box : boxes) items.push_back({curve.code(centre(box)), static_cast<std::uint32_t>(items.size())});
+  for (const Aabb& box : boxes) items.push_back({curve.code(box.centre()), static_cast<std::uint32_t>(items.size())});
   sort_by_key(items);
   std::vector<std::uint32_t> order;
   for (const Keyed& item : items) order.push_back(item.number);
@@ -304,7 +302,7 @@ Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads) {
   std::vector<Keyed> items(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     // A Morton code without its last bit for each axis leaves room for the form above it.
-    items[i] = {form_of(boxes[i]) << 3 * (kAxisBits - 1) | curve.code(centre(boxes[i])) >> 3, i};
+    items[i] = {form_of(boxes[i]) << 3 * (kAxisBits - 1) | curve.code(boxes[i].centre()) >> 3, i};
   }
   return build(std::move(items), [&](std::uint32_t i) { return boxes[i]; }, threads);
 }

@@ -41,13 +41,7 @@ std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes);
 // neighbours stay neighbours, as under an affine map.
 void refit(Bvh& bvh, const Mesh& mesh);
 
-inline Aabb triangle_box(const std::array<Vec3, 3>& corners) {
-  Aabb box{corners[0], corners[0]};
-  box.include(corners[1]);
-  box.include(corners[2]);
-  return box;
-}
-inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) { return triangle_box(corners(mesh, t)); }
+inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) { return bounds_of(corners(mesh, t)); }
 
 // The box of the triangle at a place in `order`.
 inline Aabb box_at(const Bvh& bvh, const Mesh& mesh, std::uint32_t place) {

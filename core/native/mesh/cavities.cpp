@@ -117,7 +117,7 @@ bool crosses_others(const Mesh& mesh, const Bvh& bvh, const Labels& sets, std::u
                     const std::vector<std::uint32_t>& members, Budget* budget) {
   return std::any_of(members.begin(), members.end(), [&](std::uint32_t t) {
     const Corners mine = corners(mesh, t);
-    return !visit_box(bvh, mesh, triangle_box(mine), [&](std::uint32_t u) {
+    return !visit_box(bvh, mesh, bounds_of(mine), [&](std::uint32_t u) {
       spend(budget, kTriangleWork);
       return sets.of_triangle[u] == set || classify(mine, corners(mesh, u), budget) != TriangleContact::crossing;
     }, budget);

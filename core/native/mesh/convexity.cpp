@@ -22,7 +22,7 @@
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/topology.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 
 namespace satcheck {
 namespace {
@@ -46,7 +46,7 @@ class Defect {
         hull_(hull),
         budget_(budget),
         boundary_(make_surface({hull.vertices, hull.triangles}, false)),
-        depth_error_(kDepthError * norm(extent())) {
+        depth_error_(kDepthError * norm(bounds_of(hull_.vertices).size())) {
     // Fan triangulation: a face of n corners has n - 2 triangles, in order.
     for (std::uint32_t f = 0; f < hull.face_count(); ++f) {
       const std::uint32_t size = hull.face_offset[f + 1] - hull.face_offset[f];
@@ -95,12 +95,6 @@ class Defect {
   }
 
  private:
-  Vec3 extent() const {
-    Aabb box;
-    for (const Vec3& p : hull_.vertices) box.include(p);
-    return box.max - box.min;
-  }
-
   void list_faces_at_vertices() {
     faces_at_.resize(hull_.vertices.size());
     for (std::uint32_t f = 0; f < hull_.face_count(); ++f) {

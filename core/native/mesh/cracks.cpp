@@ -22,6 +22,8 @@ constexpr double kThinBeside = 0x1p-10;
 constexpr std::size_t kMostSplits = 16;
 // The same for vertices that are looked at: those of a cluster are near each of its edges.
 constexpr std::size_t kMostVisits = 200;
+// Measured steps of a vertex that is held against an edge, or another vertex.
+constexpr std::uint64_t kVertexWork = 50;
 
 std::vector<BoundaryLoop> loops_of(const Mesh& welded) {
   return boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles));
@@ -85,7 +87,7 @@ bool may_pass(Vec3 p, Vec3 q, const Aabb& box, double reach) {
 // Closes T-junctions: each boundary edge that passes within the width of other vertices of the boundary gets triangles
 // that replace it by edges from vertex to vertex. Several T-junctions often lie on one loop, which then bounds no
 // single segment.
-void split_edges(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width) {
+void split_edges(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width, Budget* budget) {
   const std::vector<std::uint32_t> vertices = vertices_of(loops);
   const Bvh tree = tree_of(welded, vertices);
   const auto at = [&](std::uint32_t v) { return welded.vertices[v]; };
@@ -105,7 +107,9 @@ void split_edges(Mesh& welded, const std::vector<BoundaryLoop>& loops, double wi
             const bool at_end = distance(at(x), at(u)) <= width || distance(at(x), at(v)) <= width;
             if (!at_end && distance_to_segment(at(x), at(u), at(v)) <= width) between.emplace_back(dot(at(x) - at(u), along), x);
             return visits <= kMostVisits * vertices.size();
-          });
+          },
+          budget);
+      spend(budget, kVertexWork * between.size());
       std::sort(between.begin(), between.end());
       std::uint32_t last = u;
       for (const auto& [share, x] : between) {
@@ -120,7 +124,8 @@ void split_edges(Mesh& welded, const std::vector<BoundaryLoop>& loops, double wi
 
 // For each vertex of the loops: the first vertex along the widest axis within the width, if not itself within the width
 // of one before; the vertex itself where there is no other.
-std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::vector<BoundaryLoop>& loops, double width) {
+std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::vector<BoundaryLoop>& loops, double width,
+                                                   Budget* budget) {
   std::vector<std::uint32_t> vertices = vertices_of(loops);
   const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
   const int axis = widest_axis(mesh, vertices);
@@ -131,17 +136,18 @@ std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::
   std::map<std::uint32_t, std::uint32_t> same;
   for (const std::uint32_t first : vertices) {
     if (!same.try_emplace(first, first).second) continue;
-    visit_box(tree, {at(first) - reach, at(first) + reach}, [&](std::uint32_t k) {
+    visit_box(tree, Mesh{}, {at(first) - reach, at(first) + reach}, [&](std::uint32_t k) {
+      spend(budget, kVertexWork);
       if (distance(at(first), at(vertices[k])) <= width) same.try_emplace(vertices[k], first);
       return true;
-    });
+    }, budget);
   }
   return same;
 }
 
 // Joins each boundary edge whose two ends have such partners to the edge between the partners.
-void close_seams(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width) {
-  const auto same = same_points(welded, loops, width);
+void close_seams(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width, Budget* budget) {
+  const auto same = same_points(welded, loops, width, budget);
   const auto append = [&](const Triangle& t) {
     if (!repeats_a_corner(t)) welded.triangles.push_back(t);
   };
@@ -155,9 +161,10 @@ void close_seams(Mesh& welded, const std::vector<BoundaryLoop>& loops, double wi
   }
 }
 
-std::size_t close_thin_loops(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width) {
+std::size_t close_thin_loops(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width, Budget* budget) {
   std::size_t closed = 0;
   for (const BoundaryLoop& loop : loops) {
+    spend(budget, kVertexWork * loop.size());
     if (!bounds_no_area(welded, loop, width)) continue;
     const std::vector<Triangle> triangles = fan(loop);
     welded.triangles.insert(welded.triangles.end(), triangles.begin(), triangles.end());
@@ -168,17 +175,15 @@ std::size_t close_thin_loops(Mesh& welded, const std::vector<BoundaryLoop>& loop
 
 }  // namespace
 
-std::size_t seal_cracks(Mesh& welded, double width) {
-  Aabb box;
-  for (const Vec3& p : welded.vertices) box.include(p);
-  if (!(width < kThinBeside * norm(box.max - box.min))) return 0;
+std::size_t seal_cracks(Mesh& welded, double width, Budget* budget) {
+  if (!(width < kThinBeside * norm(bounds_of(welded.vertices).size()))) return 0;
   const std::vector<BoundaryLoop> loops = loops_of(welded);
   if (loops.empty()) return 0;
   Mesh sealed = welded;
-  split_edges(sealed, loops, width);
-  close_seams(sealed, loops_of(sealed), width);
+  split_edges(sealed, loops, width, budget);
+  close_seams(sealed, loops_of(sealed), width, budget);
   const std::vector<BoundaryLoop> left = loops_of(sealed);
-  close_thin_loops(sealed, left, width);
+  close_thin_loops(sealed, left, width, budget);
   const std::size_t open = loops_of(sealed).size();
   if (open >= loops.size()) return 0;
   welded = std::move(sealed);

@@ -7,12 +7,13 @@
 
 #include <cstddef>
 
+#include "base/budget.hpp"
 #include "base/mesh.hpp"
 
 namespace satcheck {
 
 // Appends to the welded mesh the triangles that close its cracks; returns how many loops of the boundary
 // they close. width: points within it may be the same point.
-std::size_t seal_cracks(Mesh& welded, double width);
+std::size_t seal_cracks(Mesh& welded, double width, Budget* budget = nullptr);
 
 }  // namespace satcheck

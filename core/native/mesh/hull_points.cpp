@@ -59,9 +59,7 @@ HullPoints find_hull_points(const Mesh& mesh) {
   HullPoints result;
   result.points = hull.vertices;
   if (hull.dimension < 3) return result;
-  Aabb box;
-  for (const Vec3& p : hull.vertices) box.include(p);
-  const double depth = kDepth * max_abs(box.max - box.min);
+  const double depth = kDepth * max_abs(bounds_of(hull.vertices).size());
   std::vector<bool> is_corner(mesh.vertices.size(), false);
   for (const std::uint32_t v : hull.source) is_corner[v] = true;
   const FacePlanes faces(hull);

@@ -23,8 +23,8 @@ std::vector<Hole> holes_but_flat_parts(const Mesh& welded) {
   return find_holes(mesh);
 }
 
-Inspection sealed(Inspection given, double width) {
-  given.cracks = seal_cracks(given.mesh, width);
+Inspection sealed(Inspection given, double width, Budget& budget) {
+  given.cracks = seal_cracks(given.mesh, width, &budget);
   if (given.cracks != 0) given.repaired = measure_topology(given.mesh);
   return given;
 }
@@ -54,10 +54,11 @@ Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll) {
 
 Inspection with_cracks_closed(Inspection given, bool orient_it, double width, const Poll& poll) {
   if (!has_boundary(given.repaired)) return given;
-  Inspection result = sealed(given, width);
+  Budget budget = Budget::that_stops(kMostSteps, poll);
+  Inspection result = sealed(given, width, budget);
   if (orient_it && !result.repaired.oriented) {
     orient_mesh(given, poll);
-    result = sealed(std::move(given), width);
+    result = sealed(std::move(given), width, budget);
   }
   if (orient_it) orient_mesh(result, poll);
   result.holes = has_boundary(result.repaired) ? holes_but_flat_parts(result.mesh) : std::vector<Hole>{};

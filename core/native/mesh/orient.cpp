@@ -289,13 +289,13 @@ Mesh orient(const Mesh& mesh, Budget* budget) {
 std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const Poll& poll) {
   const Mesh welded = weld(mesh);
   Mesh sealed = welded;
-  if (crack_width > 0) seal_cracks(sealed, crack_width);
+  Budget budget = Budget::that_stops(kNoEnd, poll);
+  if (crack_width > 0) seal_cracks(sealed, crack_width, &budget);
   const EdgeTable edges(sealed.vertices.size(), sealed.triangles);
   std::vector<Mesh> result;
   std::vector<std::uint32_t> place(welded.vertices.size());
   std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
   Labels labels = label_components(sealed, edges);
-  Budget budget = Budget::that_stops(kNoEnd, poll);
   const std::vector<std::uint32_t> solids = solids_of(sealed, edges, labels, &budget);
   for (std::uint32_t& label : labels.of_triangle) label = solids[label];
   for (const auto& members : labels.members()) {

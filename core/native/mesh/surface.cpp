@@ -10,6 +10,7 @@
 #include "base/edge_table.hpp"
 #include "base/parallel.hpp"
 #include "base/patches.hpp"
+#include "exact/triangle_distance.hpp"
 #include "mesh/closing.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/winding.hpp"
@@ -55,6 +56,19 @@ bool has_triangles_of(const Mesh& a, const Mesh& b) {
   };
   return std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(), mirrored);
 }
+
+// < 0: the first, > 0: the second, 0: alike.
+int order(Vec3 a, Vec3 b) { return a == b ? 0 : coordinates_less(a, b) ? -1 : 1; }
+
+int order(const Mesh& a, const Mesh& b) {
+  if (a.vertices.size() != b.vertices.size()) return a.vertices.size() < b.vertices.size() ? -1 : 1;
+  const auto differ = std::mismatch(a.vertices.begin(), a.vertices.end(), b.vertices.begin());
+  if (differ.first != a.vertices.end()) return order(*differ.first, *differ.second);
+  return a.triangles == b.triangles ? 0 : a.triangles < b.triangles ? -1 : 1;
+}
+
+// Measured steps of a triangle on the way.
+constexpr std::uint64_t kTriangleWork = 25;
 
 }  // namespace
 
@@ -119,6 +133,53 @@ std::shared_ptr<const Surface> walled_surface(const Surface& open, OpenParts par
 
 std::optional<int> winding_number(const Surface& surface, Vec3 point, Budget* budget) {
   return winding_number(surface.mesh, surface.bvh, point, budget);
+}
+
+bool comes_before(const Surface& a, const Surface& b) {
+  if (&a.mesh == &b.mesh || a.bvh.nodes.empty() || b.bvh.nodes.empty()) return true;
+  const Aabb &box_a = a.bvh.nodes[0].box, &box_b = b.bvh.nodes[0].box;
+  if (const int by_min = order(box_a.min, box_b.min)) return by_min < 0;
+  if (const int by_max = order(box_a.max, box_b.max)) return by_max < 0;
+  return order(a.mesh, b.mesh) <= 0;
+}
+
+NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget) {
+  if (surface.bvh.nodes.empty()) throw std::invalid_argument("an empty surface has no nearest point");
+  const Aabb at{p, p};
+  double best = INFINITY;
+  NearestPoint result{};
+  std::vector<std::pair<double, std::uint32_t>> stack;
+  stack.reserve(kUsualDepth);
+  stack.push_back({0.0, 0u});
+  while (!stack.empty()) {
+    const auto [bound, index] = stack.back();
+    stack.pop_back();
+    spend(budget, kNodeWork);
+    if (!(bound < best)) continue;
+    const BvhNode& node = surface.bvh.nodes[index];
+    if (!node.is_leaf()) {
+      const auto bounded = [&](std::uint32_t child) {
+        return std::pair{box_distance_squared(at, surface.bvh.nodes[child].box), child};
+      };
+      auto farther = bounded(node.first), nearer = bounded(node.first + 1);
+      if (farther.first < nearer.first) std::swap(farther, nearer);
+      stack.push_back(farther);
+      stack.push_back(nearer);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (!(box_distance_squared(at, box_at(surface.bvh, surface.mesh, i)) < best)) continue;
+      spend(budget, kTriangleWork);
+      const std::uint32_t t = surface.bvh.order[i];
+      const Vec3 q = nearest_on_triangle(p, corners(surface.mesh, t));
+      const double d = norm_squared(q - p);
+      if (d < best) {
+        best = d;
+        result = {std::sqrt(d), q, t};
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace satcheck

@@ -74,4 +74,18 @@ Surface refitted_surface(const Surface& like, Mesh mesh);
 // Winding number of a point with respect to a solid; empty if the point is on the surface.
 std::optional<int> winding_number(const Surface& surface, Vec3 point, Budget* budget = nullptr);
 
+// A canonical order of two surfaces: their boxes are compared, then all vertices and triangles. True for two equal meshes.
+// Scaling by powers of two does not change the result. A query is always answered in this order, and its answer is
+// mirrored for the other one. So rounding and the order of triangles affect A against B and B against A in the same way.
+bool comes_before(const Surface& a, const Surface& b);
+
+struct NearestPoint {
+  double distance;
+  Vec3 point;
+  std::uint32_t triangle;
+};
+
+// The point of the surface nearest to p, by branch and bound over its tree, in float64. Throws std::invalid_argument on an empty surface.
+NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget = nullptr);
+
 }  // namespace satcheck

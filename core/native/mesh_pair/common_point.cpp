@@ -6,7 +6,7 @@
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/winding.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 
 namespace satcheck {
@@ -28,11 +28,6 @@ bool inside_both(const Surface& a, const Surface& b, Vec3 p, Budget* budget) {
 Vec3 unit_or_zero(Vec3 v) {
   const double length = norm(v);
   return length > 0 ? v * (1 / length) : Vec3{};
-}
-
-double largest_coordinate(const Surface& s) {
-  const Aabb& box = s.bvh.nodes[0].box;
-  return std::fmax(max_abs(box.min), max_abs(box.max));
 }
 
 Vec3 inward(const Surface& s, std::uint32_t triangle) {
@@ -80,7 +75,7 @@ std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, cons
   if (!start) return std::nullopt;
   // No surface is within the ball that reaches to the nearer surface, unless rounding is most of what the stride leaves
   // of its radius: then the step may have left a body.
-  const double certain = chain_rounding(std::fmax(largest_coordinate(a), largest_coordinate(b))) / (1 - kStride);
+  const double certain = chain_rounding(larger(a.bvh.nodes[0].box.largest_coordinate(), b.bvh.nodes[0].box.largest_coordinate())) / (1 - kStride);
   Vec3 p = *start;
   NearestPoint on_a = nearest_point(a, p, budget), on_b = nearest_point(b, p, budget);
   for (int step = 0; step < kClimbSteps; ++step) {

@@ -53,7 +53,7 @@ bool has_opposite_triangles(const Surface& solid) {
       if (!collinear(c[0], c[1], c[2])) return true;  // a normal that has no certain axis
       continue;
     }
-    const bool none = visit_box(solid.bvh, mesh, triangle_box(c), [&](std::uint32_t other) {
+    const bool none = visit_box(solid.bvh, mesh, bounds_of(c), [&](std::uint32_t other) {
       const Corners d = corners(mesh, other);
       const auto in_plane = [&](Vec3 p) { return plane.side(p) == 0; };
       return orientation_2d(d[0], d[1], d[2], axis) != -turn || !std::all_of(d.begin(), d.end(), in_plane);

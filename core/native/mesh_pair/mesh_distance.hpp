@@ -1,4 +1,4 @@
-// Distances of surfaces, by branch and bound over box trees, in float64.
+// Distances of surfaces, by branch and bound over box trees: in float64, and compared with a length exactly.
 #pragma once
 
 #include <functional>
@@ -22,5 +22,8 @@ using TrianglePairTest = std::function<bool(std::uint32_t, std::uint32_t)>;
 // pass this test are measured; empty: all.
 MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts = {},
                            Budget* budget = nullptr);
+
+// Sign of distance - length, for surfaces without a common point. Throws BudgetSpent. poll: called now and then.
+int compare_gap(const Surface& a, const Surface& b, double length, const Poll& poll = {});
 
 }  // namespace satcheck

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "exact/triangle_pair.hpp"
-#include "mesh/surface_order.hpp"
 #include "mesh_pair/contact.hpp"
 #include "mesh_pair/open_surfaces.hpp"
 #include "mesh_pair/outline_pair.hpp"

@@ -41,6 +41,9 @@ struct MeshRelation {
   std::optional<std::size_t> edge_tests;  // instead of both, if outlines of prisms decided
   std::size_t judged = 0;  // pairs of triangles in contact that needed samples
   std::uint64_t steps = 0;  // that deciding took
+
+  // Whether the bodies are proven to have no common interior.
+  bool is_free() const { return proven && (relation == Relation::separated || relation == Relation::touching); }
 };
 
 // The steps that a question about a pair may take, with room for each triangle. It stops. poll: called now and then.

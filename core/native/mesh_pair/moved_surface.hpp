@@ -1,13 +1,15 @@
-// A surface that is translated many times without rebuilding its tree.
+// Translated surfaces, whose trees are not built again.
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "mesh/closing.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
 
+// A surface that is translated many times.
 class MovedSurface {
  public:
   // `still` must outlive this.
@@ -54,6 +56,32 @@ class MovedSurface {
   std::shared_ptr<Mesh> moved_mesh_;
   Surface moved_;
   std::shared_ptr<MovedSurface> closed_;  // of an open surface
+};
+
+// A point near the meshes that can be subtracted from all their coordinates without rounding; 0 along an axis on which
+// the meshes are near the origin. Relative to it, coordinates are small: moving them rounds less, and far fewer signs
+// need exact arithmetic.
+Vec3 exact_centre(const Surface& a, const Surface& b);
+
+// Two surfaces, moved by that point if it is not 0.
+class NearOrigin {
+ public:
+  // Both must outlive this.
+  NearOrigin(const Surface& of_a, const Surface& of_b)
+      : centre(exact_centre(of_a, of_b)), a(near(moved_a_, of_a)), b(near(moved_b_, of_b)) {}
+  NearOrigin(const NearOrigin&) = delete;
+  NearOrigin& operator=(const NearOrigin&) = delete;
+
+ private:
+  const Surface& near(std::optional<MovedSurface>& moved, const Surface& surface) {
+    return centre == Vec3{} ? surface : moved.emplace(surface).at(-centre);
+  }
+
+  std::optional<MovedSurface> moved_a_, moved_b_;
+
+ public:
+  const Vec3 centre;
+  const Surface &a, &b;
 };
 
 }  // namespace satcheck

@@ -1,31 +1,25 @@
-// Whether a surface reaches deeper into a solid than a length.
+// How far a surface reaches out of a solid, and whether it reaches deeper into one than a length.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
-#include "base/mesh.hpp"
-#include "exact/triangle_pair.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 
 namespace satcheck {
 
-// A piece of a triangle beside a solid: its centre, the radius around that, the point of the solid's surface nearest to
-// the centre, and a bound of the distance from any point of the piece to the triangle of that point, which is convex.
-struct NearPiece {
-  NearPiece(const Surface& solid, const Corners& piece, Budget* budget);
-
-  Vec3 centre;
-  double radius = 0;
-  NearestPoint nearest;
-  double to_triangle = 0;
+struct Deviation {
+  double lower, upper;
 };
 
-// The halves of a piece, across its longest side.
-std::array<Corners, 2> halves(const Corners& piece);
+// Bounds of the greatest distance between a point of the triangles of `surface_of` and the solid, which is 0 inside it.
+// If `solid` is not solid, only its surface counts. upper - lower <= tolerance plus a few roundings of the coordinates,
+// unless the work limit was reached. Throws std::invalid_argument unless the tolerance is positive and both meshes have
+// triangles.
+Deviation deviation(const Mesh& surface_of, const Surface& solid, double tolerance, Budget& budget);
 
 // Whether a point of the triangles of `surface_of` lies inside the solid, farther than `length` from all triangles of it,
-// to rounding. Nothing where `work` steps (base/budget.hpp) do not decide that.
-std::optional<bool> reaches_deeper(const Mesh& surface_of, const Surface& solid, double length, std::uint64_t work);
+// to rounding. Nothing where the budget, which stops, does not suffice to decide that.
+std::optional<bool> reaches_deeper(const Mesh& surface_of, const Surface& solid, double length, Budget& budget);
 
 }  // namespace satcheck

@@ -10,7 +10,7 @@ namespace satcheck {
 namespace {
 
 double half_area(const Aabb& box) {
-  const Vec3 e = box.max - box.min;
+  const Vec3 e = box.size();
   return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 
 namespace satcheck {
 namespace {
@@ -21,9 +21,9 @@ constexpr int kMostSharesInward = 5;
 
 std::vector<Ball> candidates(const Surface& surface) {
   const Aabb& box = surface.bvh.nodes[0].box;
-  const Vec3 size = box.max - box.min;
+  const Vec3 size = box.size();
   const double longest = max_abs(size), step = longest / kCells;
-  const double rounding = chain_rounding(std::max(max_abs(box.min), max_abs(box.max)));
+  const double rounding = chain_rounding(box.largest_coordinate());
   const auto cells = [&](double side) { return std::max(1, static_cast<int>(std::ceil(side / step))); };
   const int nx = cells(size.x), ny = cells(size.y), nz = cells(size.z);
   std::vector<Ball> balls;
@@ -73,7 +73,7 @@ std::optional<ClearBall> clear_ball(const Surface& closed, const PosedPlace& at,
   if (closed.bvh.nodes.empty()) return {};
   const Vec3 centre = in_file(at, point);
   const Aabb& box = closed.bvh.nodes[0].box;
-  const double largest = std::max({max_abs(centre), max_abs(box.min), max_abs(box.max)});
+  const double largest = larger(max_abs(centre), box.largest_coordinate());
   const Ball ball = in_world(at, Ball{centre, nearest_point(closed, centre).distance - chain_rounding(largest)});
   if (!(ball.radius > room)) return {};
   const auto winding = winding_number(closed, centre);

@@ -59,12 +59,8 @@ void PosedBody::widen(Vec3 p) {
 
 void PosedBody::enclose(const std::vector<Vec3>& corners) {
   corners_ = VertexLanes(corners);
-  Aabb box;
-  for (const Vec3& p : corners) {
-    box.include(p);
-    widen(p);
-  }
-  around_.centre = box.min * 0.5 + box.max * 0.5;
+  for (const Vec3& p : corners) widen(p);
+  around_.centre = bounds_of(corners).centre();
   for (const Vec3& p : corners) around_.radius = std::max(around_.radius, norm(p - around_.centre));
   around_.radius += margin_ + chain_rounding(max_abs(largest_));
 }

@@ -191,7 +191,7 @@ Vec3 unit_normal(const Corners& t) {
 
 double determinant(const Mat3& m) { return dot(m.row[0], cross(m.row[1], m.row[2])); }
 
-double longest(const Aabb& box) { return max_abs(box.max - box.min); }
+double longest(const Aabb& box) { return max_abs(box.size()); }
 
 class Walk {
  public:
@@ -227,9 +227,7 @@ class Walk {
     for (std::uint32_t k = of_b.first; k < of_b.first + of_b.count; ++k) {
       const Corners c = corners(b_.mesh, b_.bvh.order[k]);
       const Corners moved{place_ * c[0], place_ * c[1], place_ * c[2]};
-      Aabb box;
-      for (const Vec3& p : moved) box.include(p);
-      box = {box.min - Vec3{gap_, gap_, gap_}, box.max + Vec3{gap_, gap_, gap_}};
+      const Aabb box = bounds_of(moved).widened(gap_);
       if (!meet(box, of_a.box)) continue;
       for (std::uint32_t i = of_a.first; i < of_a.first + of_a.count; ++i) {
         if (!meet(box, box_at(a_.bvh, a_.mesh, i))) continue;

@@ -9,7 +9,6 @@
 #include "base/rounding.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh/slivers.hpp"
-#include "mesh/surface_order.hpp"
 #include "overlap/passing.hpp"
 #include "overlap/shell_labels.hpp"
 
@@ -122,10 +121,10 @@ class Overlap {
       const CellFace& f = cells_.faces()[s / 2];
       if (component_[s] == kNoComponent || (f.shared && f.mesh == 1)) continue;  // the face of a counts
       OverlapComponent& component = found[component_[s]];
-      const Vec3 middle = component.bounds.min * 0.5 + component.bounds.max * 0.5;
+      const Vec3 middle = component.bounds.centre();
       const Vec3 area = cells_.area(s / 2, middle) * (s % 2 == 0 ? -1 : 1);
       component.volume += dot(area, corners(cells_.surface(f.mesh).mesh, f.triangle)[0] - middle) / 3;
-      const double largest = larger(max_abs(component.bounds.min), max_abs(component.bounds.max));
+      const double largest = component.bounds.largest_coordinate();
       component.volume_error += kVolumeRoundoffs * kUnitRoundoff * largest * norm(area);
     }
   }

@@ -120,8 +120,7 @@ Cell part(const Cell& cell, const HalfSpace& plane, const std::vector<double>& b
 Aabb Cell::box() const {
   Aabb result;
   for (const Corner& corner : corners) result.include(corner.at);
-  const Vec3 wide{error, error, error};
-  return {result.min - wide, result.max + wide};
+  return result.widened(error);
 }
 
 Cell make_cell(const Mat3& axes, Vec3 low, Vec3 high, int flat, double scale) {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "exact/triangle_distance.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 #include "thickness/cell_cut.hpp"
 #include "thickness/matrix_game.hpp"
 #include "thickness/void_bound.hpp"
@@ -205,7 +205,7 @@ class CellBound {
 
   double solve() {
     // A cut leaves the cell by no more than that.
-    const double diagonal = norm(box_.max - box_.min) + bodies_.rounding();
+    const double diagonal = norm(box_.size()) + bodies_.rounding();
     floor_of_game_ = floor_ - diagonal;
     game_.emplace(cell_.corners.size(), floor_of_game_, diagonal + open_.bound - floor_);
     for (const Column& column : open_.columns) add(column.plane ? column : best_column(column.body, column.patch));
@@ -301,8 +301,7 @@ class CellBound {
     } else {
       const Surface& surface = bodies_.surface(body);
       const double reach = nearest_point(surface, p, &budget_).distance + 2 * tie;
-      const Vec3 wide{reach, reach, reach};
-      visit_box(surface.bvh, surface.mesh, {p - wide, p + wide}, [&](std::uint32_t t) {
+      visit_box(surface.bvh, surface.mesh, at.widened(reach), [&](std::uint32_t t) {
         const std::uint32_t i = bodies_.patches(body).patch_of[t];
         if (i != kNoPatch) compare(i);
         return true;

@@ -21,7 +21,6 @@ struct OpenCell {
   std::vector<Column> columns;                   // that the bound of the cell it comes from rests on
   std::array<bool, 2> inside{};                  // all of it is inside the body
   std::optional<HalfSpace> cut;                  // where to split it
-  std::uint64_t number = 0;
   std::uint32_t node = 0;  // of the record
 };
 

@@ -10,7 +10,7 @@
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
 #include "convex/convex_hull.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 #include "thickness/matrix_game.hpp"
 
 namespace satcheck {
@@ -35,8 +35,7 @@ struct Plane {
 };
 
 std::vector<Plane> box_planes(const std::vector<Vec3>& points) {
-  Aabb box;
-  for (const Vec3 p : points) box.include(p);
+  const Aabb box = bounds_of(points);
   return {{{1, 0, 0}, box.max.x}, {{0, 1, 0}, box.max.y}, {{0, 0, 1}, box.max.z},
           {{-1, 0, 0}, -box.min.x}, {{0, -1, 0}, -box.min.y}, {{0, 0, -1}, -box.min.z}};
 }
@@ -61,11 +60,11 @@ struct InnerBall {
 };
 
 InnerBall largest_ball(const std::vector<Plane>& planes, const Aabb& box) {
-  const Vec3 size = box.max - box.min;
+  const Vec3 size = box.size();
   MatrixGame game(8, -2 * norm(size));
   std::vector<double> payments;  // 8 a plane
   std::vector<std::size_t> chosen;
-  InnerBall ball{box.min * 0.5 + box.max * 0.5, smaller(size.x, smaller(size.y, size.z)) / 2};
+  InnerBall ball{box.centre(), smaller(size.x, smaller(size.y, size.z)) / 2};
   for (int round = 0; round < kMostRounds; ++round) {
     const auto nearest = std::min_element(planes.begin(), planes.end(), [&](const Plane& p, const Plane& q) {
       return p.depth(ball.centre) < q.depth(ball.centre);
@@ -90,11 +89,52 @@ InnerBall largest_ball(const std::vector<Plane>& planes, const Aabb& box) {
   return ball;
 }
 
-bool holds(const Aabb& box, Vec3 p) { return meet(box, {p, p}); }
-
 bool is_inside(const Surface& solid, Vec3 p) {
   const auto winding = winding_number(solid, p);
   return winding && *winding != 0;
+}
+
+// Corners are rounded twice, a height above a plane takes 3 products and 2 sums of sizes below 3 times the largest
+// coordinate. Rounded up.
+constexpr double kRoundoffs = 64;
+
+struct Extent {
+  double low = INFINITY, high = -INFINITY;
+};
+
+Extent extent(const std::vector<Vec3>& points, Vec3 along) {
+  Extent result;
+  for (const Vec3 p : points) {
+    const double height = dot(along, p);
+    result.low = smaller(result.low, height);
+    result.high = larger(result.high, height);
+  }
+  return result;
+}
+
+// Of the directions, without their part along `across`, the one along which the points extend least.
+Vec3 thinnest(const std::vector<Vec3>& points, const std::vector<Vec3>& directions, Vec3 across) {
+  Vec3 best;
+  double least = INFINITY;
+  for (const Vec3 direction : directions) {
+    const Vec3 flat = direction - across * dot(across, direction);
+    const double length = norm(flat);
+    if (!(length > 0.01)) continue;
+    const Extent here = extent(points, flat * (1 / length));
+    if (!(here.high - here.low < least)) continue;
+    least = here.high - here.low;
+    best = flat * (1 / length);
+  }
+  return best;
+}
+
+Mat3 axes_of(const std::vector<Vec3>& points) {
+  if (points.size() > kMostHullPoints) return {};
+  const Polytope hull = convex_hull(points);
+  if (hull.dimension < 3) return {};
+  const Vec3 first = thinnest(hull.vertices, hull.face_normal, {});
+  const Vec3 second = thinnest(hull.vertices, hull.face_normal, first);
+  return {{first, second, cross(first, second)}};
 }
 
 }  // namespace
@@ -106,11 +146,11 @@ std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& 
   std::vector<ThicknessInterval> intervals;
   for (std::size_t k = 0; k < components.size(); ++k) {
     const Aabb& box = components[k].bounds;
-    const double rounding = kHeightRoundoffs * kUnitRoundoff * larger(max_abs(box.min), max_abs(box.max));
+    const double rounding = kHeightRoundoffs * kUnitRoundoff * box.largest_coordinate();
     ThicknessInterval& interval = intervals.emplace_back();
-    interval.stop = ThicknessStop::work_spent;
+    interval.stop = SearchStop::work_spent;
     interval.upper = 2 * rounding;
-    if (const Vec3 size = box.max - box.min; max_abs(size) < kSmallestSize) {
+    if (const Vec3 size = box.size(); max_abs(size) < kSmallestSize) {
       interval.upper += smaller(size.x, smaller(size.y, size.z));
     }
     if (hulls[k].empty()) continue;
@@ -118,7 +158,7 @@ std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& 
     interval.upper = 2 * (larger(ball.radius, 0) + rounding);
     const auto in_other_hull = [&](std::size_t other) {
       const auto beyond = [&](const Plane& plane) { return plane.depth(ball.centre) < -rounding; };
-      return other != k && holds(components[other].bounds, ball.centre) &&
+      return other != k && components[other].bounds.contains({ball.centre, ball.centre}) &&
              std::none_of(hulls[other].begin(), hulls[other].end(), beyond);
     };
     bool own = overlap.resolved && is_inside(a, ball.centre) && is_inside(b, ball.centre);
@@ -131,6 +171,18 @@ std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& 
     interval.lower = 2 * interval.radius;
   }
   return intervals;
+}
+
+// The thinnest slab around points has a face of their hull on one side, unless it lies along two edges; of slabs across
+// the first axis the second one is the thinnest along a face, too.
+BoxAlong box_around(const OverlapComponent& component) {
+  BoxAlong box{axes_of(component.corners), {}, {}};
+  const double rounding = kRoundoffs * kUnitRoundoff * component.bounds.largest_coordinate();
+  Extent of[3];
+  for (int axis = 0; axis < 3; ++axis) of[axis] = extent(component.corners, box.axes.row[axis]);
+  box.low = Vec3{of[0].low, of[1].low, of[2].low} - Vec3{1, 1, 1} * rounding;
+  box.high = Vec3{of[0].high, of[1].high, of[2].high} + Vec3{1, 1, 1} * rounding;
+  return box;
 }
 
 }  // namespace satcheck

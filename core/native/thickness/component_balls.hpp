@@ -1,4 +1,4 @@
-// The thickness of the components of an overlap, without a search.
+// The thickness of the components of an overlap without a search, and close boxes around them.
 #pragma once
 
 #include <vector>
@@ -15,5 +15,9 @@ inline constexpr std::size_t kMostHullPoints = 5000;
 // convex, as slivers between facets are; of components with many corners, that in their box. centre: of that ball; lower: how thick the overlap of the solids is around it,
 // and 0 where it does not lie in both, or may belong to another component.
 std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& b, const OverlapComponents& overlap);
+
+// A close box around a component, which holds it, rounding included. The first axis is across the thinnest slab that holds
+// it, so that a sliver between two facets has a box as flat as itself.
+BoxAlong box_around(const OverlapComponent& component);
 
 }  // namespace satcheck

@@ -6,7 +6,6 @@
 
 #include "mesh_pair/mesh_pair.hpp"
 #include "thickness/component_balls.hpp"
-#include "thickness/component_box.hpp"
 
 namespace satcheck {
 namespace {

@@ -146,8 +146,7 @@ class Merging {
       box.include(mesh_.vertices[v]);
     }
     patch.slack = triangle_count > 1 ? 2 * deviation(i, vertices) : 0;
-    const Vec3 bulge{patch.slack, patch.slack, patch.slack};
-    box = {box.min - bulge, box.max + bulge};
+    box = box.widened(patch.slack);
     result.patches.push_back(patch);
   }
 

@@ -8,7 +8,6 @@
 
 #include "base/rounding.hpp"
 #include "base/budget.hpp"
-#include "mesh/surface_order.hpp"
 #include "exact/triangle_pair.hpp"
 #include "thickness/strip_cell.hpp"
 
@@ -43,8 +42,7 @@ class Proof {
       : surfaces_{&a, &b}, half_(length / 2), budget_(budget) {
     budget_.spend(kPlaceWork * (a.mesh.triangles.size() + b.mesh.triangles.size()));
     for (const Surface* surface : surfaces_) {
-      const Aabb& box = surface->bvh.nodes[0].box;
-      scale_ = larger(scale_, larger(max_abs(box.min), max_abs(box.max)));
+      scale_ = larger(scale_, surface->bvh.nodes[0].box.largest_coordinate());
     }
     rounding_ = kRoundoffs * kUnitRoundoff * scale_;
     find_axes();

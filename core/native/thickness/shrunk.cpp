@@ -8,7 +8,6 @@
 
 #include "base/rounding.hpp"
 #include "exact/triangle_pair.hpp"
-#include "mesh/surface_order.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "thickness/nearest_to_zero.hpp"
 
@@ -78,19 +77,14 @@ Surface shrunk(const Surface& surface, double most, const Aabb& other) {
   return refitted_surface(surface, std::move(moved));
 }
 
-bool is_free(const Surface& a, const Surface& b) {
-  const MeshRelation found = mesh_relation(a, b);
-  return found.proven && (found.relation == Relation::separated || found.relation == Relation::touching);
-}
-
 }  // namespace
 
-bool free_when_shrunk(const Surface& a, const Surface& b, double most_a, double most_b) {
+bool free_when_shrunk(const Surface& a, const Surface& b, double most_a, double most_b, const Poll& poll) {
   if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
   if (!(most_a >= 0 && most_b >= 0)) throw std::invalid_argument("the lengths must not be negative");
   if (a.bvh.nodes.empty() || b.bvh.nodes.empty()) return true;
   const Surface less_a = shrunk(a, most_a, b.bvh.nodes[0].box), less_b = shrunk(b, most_b, a.bvh.nodes[0].box);
-  return comes_before(a, b) ? is_free(less_a, less_b) : is_free(less_b, less_a);
+  return mesh_relation(less_a, less_b, poll).is_free();
 }
 
 }  // namespace satcheck

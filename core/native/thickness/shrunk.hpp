@@ -12,6 +12,7 @@ namespace satcheck {
 
 // Whether two solids are free of each other when no vertex of a moves farther than most_a, and none of b than most_b.
 // False: not found. Throws std::invalid_argument unless both are solids. Swapping them with their lengths changes nothing.
-bool free_when_shrunk(const Surface& a, const Surface& b, double most_a, double most_b);
+// poll: called now and then.
+bool free_when_shrunk(const Surface& a, const Surface& b, double most_a, double most_b, const Poll& poll = {});
 
 }  // namespace satcheck

@@ -13,7 +13,7 @@ constexpr int kCut = 3, kOutside = 4, kBounded = 6;
 int axis_of(Vec3 normal) {
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 rest = normal;
-    (axis == 0 ? rest.x : axis == 1 ? rest.y : rest.z) = 0;
+    rest.at(axis) = 0;
     if (rest == Vec3{} && std::fabs(normal[axis]) == 1) return axis;
   }
   return -1;
@@ -99,7 +99,7 @@ class ThicknessRecord::Writer {
     }
     for (const double sign : {1.0, -1.0}) {
       HalfSpace plane{{}, sign > 0 ? box_.max[shortest] : -box_.min[shortest]};
-      (shortest == 0 ? plane.normal.x : shortest == 1 ? plane.normal.y : plane.normal.z) = sign;
+      plane.normal.at(shortest) = sign;
       const Aabb& a = bodies_.surface(0).bvh.nodes[0].box;
       const bool of_a = (sign > 0 ? a.max[shortest] : -a.min[shortest]) <= plane.height;
       sum.emplace_back(number_of_plane(of_a ? 0 : 1, plane, INFINITY), 1.0);

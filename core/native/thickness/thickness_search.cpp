@@ -9,8 +9,6 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "depth/exact_centre.hpp"
-#include "mesh/surface_order.hpp"
 #include "mesh_pair/moved_surface.hpp"
 #include "thickness/cell_bound.hpp"
 #include "thickness/component_search.hpp"
@@ -41,10 +39,6 @@ constexpr std::size_t kBatch = 64;
 // Fewer cells are not worth a thread.
 constexpr std::size_t kWorthThreads = 8;
 
-bool smaller_bound(const std::unique_ptr<OpenCell>& a, const std::unique_ptr<OpenCell>& b) {
-  return a->bound != b->bound ? a->bound < b->bound : a->number > b->number;
-}
-
 class Search {
  public:
   // centre: was subtracted from both surfaces.
@@ -66,7 +60,7 @@ class Search {
   void search() {
     if (!box_) push_root();
     while (!open_.empty()) {
-      if (finish(open_.front()->bound)) return;
+      if (finish(open_.key())) return;
       divide_largest();
     }
     finish(floor_);
@@ -87,7 +81,7 @@ class Search {
     result_.work = budget_.spent();
     const bool decided = goal_.limit && (result_.lower > *goal_.limit || result_.upper <= *goal_.limit);
     const bool narrow = upper - best_ <= goal_.width * std::fabs(upper) || open_.empty();
-    result_.stop = decided ? ThicknessStop::decided : narrow ? ThicknessStop::narrow : ThicknessStop::work_spent;
+    result_.stop = decided ? SearchStop::decided : narrow ? SearchStop::narrow : SearchStop::work_spent;
     if (decided || narrow || budget_.is_spent()) return true;
     if (budget_.is_due()) budget_.tell(result_.lower, result_.upper);
     return false;
@@ -111,10 +105,7 @@ class Search {
     OpenCell root;
     root.bound = half + std::fabs(bodies_.less(0) - bodies_.less(1)) + bodies_.rounding();
     if (goal_.across >= 0) {
-      const Vec3 middle = low * 0.5 + high * 0.5;
-      double& from = goal_.across == 0 ? low.x : goal_.across == 1 ? low.y : low.z;
-      double& to = goal_.across == 0 ? high.x : goal_.across == 1 ? high.y : high.z;
-      from = to = middle[goal_.across];
+      low.at(goal_.across) = high.at(goal_.across) = Aabb{low, high}.centre()[goal_.across];
     }
     root.cell = make_cell(axes_, low, high, goal_.across, bodies_.scale());
     const double reach = root.bound + std::fmax(bodies_.less(0), bodies_.less(1)) + 2 * bodies_.rounding();
@@ -148,10 +139,8 @@ class Search {
   void divide_largest() {
     std::vector<Share> shares;
     const std::size_t most = batch();
-    while (shares.size() < most && !open_.empty() && (shares.empty() || open_.front()->bound > enough())) {
-      std::pop_heap(open_.begin(), open_.end(), smaller_bound);
-      shares.push_back({std::move(open_.back()), {}, best_});
-      open_.pop_back();
+    while (shares.size() < most && !open_.empty() && (shares.empty() || open_.key() > enough())) {
+      shares.push_back({open_.pop(), {}, best_});
     }
     const double enough = this->enough();
     // A record is written in order.
@@ -191,9 +180,8 @@ class Search {
       dropped_ = std::fmax(dropped_, cell->bound);
       return;
     }
-    cell->number = next_number_++;
-    open_.push_back(std::move(cell));
-    std::push_heap(open_.begin(), open_.end(), smaller_bound);
+    const double bound = cell->bound;
+    open_.push(bound, std::move(cell));
   }
 
   // Takes p, rounded to a point of the world frame, for a lower bound, if it is inside both. The body it is outside of.
@@ -224,7 +212,7 @@ class Search {
     for (Cell* part : {&halves->below, &halves->above}) {
       const std::uint32_t node = part == &halves->below ? nodes.first : nodes.second;
       share.cells.push_back(std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.met,
-                                                                parent.columns, parent.inside, {}, 0, node}));
+                                                                parent.columns, parent.inside, {}, node}));
     }
   }
 
@@ -263,19 +251,16 @@ class Search {
   std::optional<ThicknessRecord> record_;
   double floor_, best_, dropped_;
   ThicknessInterval result_;
-  std::vector<std::unique_ptr<OpenCell>> open_;  // a heap, largest bound first
-  std::uint64_t next_number_ = 0;
+  BestFirst<std::unique_ptr<OpenCell>> open_;  // the largest bound first
 };
 
 // The search of two surfaces near the origin, in the order that does not depend on which of them is called A.
 class OrderedSearch {
  public:
-  OrderedSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal) : swapped_(!comes_before(a, b)) {
-    const Surface &first = swapped_ ? b : a, &second = swapped_ ? a : b;
-    ThicknessGoal ordered = goal;
-    if (swapped_) std::swap(ordered.less_a, ordered.less_b);
-    const Vec3 centre = exact_centre(first, second);
-    search_.emplace(moved(0, first, centre), moved(1, second, centre), ordered, centre);
+  OrderedSearch(const Surface& a, const Surface& b, ThicknessGoal goal)
+      : swapped_(!comes_before(a, b)), pair_(swapped_ ? b : a, swapped_ ? a : b) {
+    if (swapped_) std::swap(goal.less_a, goal.less_b);
+    search_.emplace(pair_.a, pair_.b, goal, pair_.centre);
   }
 
   ThicknessInterval run(std::uint64_t most_work) {
@@ -285,19 +270,15 @@ class OrderedSearch {
   }
 
  private:
-  const Surface& moved(std::size_t body, const Surface& surface, Vec3 centre) {
-    return centre == Vec3{} ? surface : moved_[body].emplace(surface).at(-centre);
-  }
-
   bool swapped_;
-  std::array<std::optional<MovedSurface>, 2> moved_;
+  NearOrigin pair_;
   std::optional<Search> search_;
 };
 
-ThicknessStop stop_of(const ThicknessInterval& interval, const ThicknessGoal& goal) {
-  if (goal.limit && (interval.lower > *goal.limit || interval.upper <= *goal.limit)) return ThicknessStop::decided;
+SearchStop stop_of(const ThicknessInterval& interval, const ThicknessGoal& goal) {
+  if (goal.limit && (interval.lower > *goal.limit || interval.upper <= *goal.limit)) return SearchStop::decided;
   const bool narrow = interval.upper - interval.lower <= goal.width * std::fabs(interval.upper);
-  return narrow ? ThicknessStop::narrow : ThicknessStop::work_spent;
+  return narrow ? SearchStop::narrow : SearchStop::work_spent;
 }
 
 }  // namespace
@@ -310,14 +291,14 @@ ThicknessInterval search_thickness(const Surface& a, const Surface& b, const Thi
   const std::uint64_t patience = kPatience + kPatiencePerTriangle * (a.mesh.triangles.size() + b.mesh.triangles.size());
   if (!has_components || goal.work <= patience) return whole.run(goal.work);
   ThicknessInterval known = whole.run(patience);
-  if (known.stop != ThicknessStop::work_spent) return known;
+  if (known.stop != SearchStop::work_spent) return known;
   ComponentSearch components(a, b, goal, known);
   if (!components.resolved()) return whole.run(goal.work);
   ThicknessInterval interval = components.bound(known);
-  if (stop_of(interval, goal) == ThicknessStop::work_spent) {
+  if (stop_of(interval, goal) == SearchStop::work_spent) {
     const bool is_thick = components.are_thick(known);
     known = whole.run(is_thick ? goal.work : std::min(goal.work, patience + patience / 2));
-    if (known.stop != ThicknessStop::work_spent) return known;
+    if (known.stop != SearchStop::work_spent) return known;
     const auto within = [&](const ThicknessGoal& of_one) { return OrderedSearch(a, b, of_one).run(of_one.work); };
     interval = is_thick ? components.bound(known) : components.search(known, within);
   }

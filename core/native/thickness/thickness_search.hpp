@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/best_first.hpp"
 #include "base/budget.hpp"
 #include "mesh/surface.hpp"
 
@@ -39,18 +40,12 @@ struct ThicknessGoal {
   Poll poll = {};
 };
 
-enum class ThicknessStop : std::uint8_t {
-  narrow,      // the interval is as narrow as asked
-  decided,     // it lies on one side of the limit
-  work_spent,  // it is what was reached
-};
-
 struct ThicknessInterval {
   double lower = 0, upper = 0;  // of the diameter, rounding included
   bool found = false;           // whether a point inside both is known that is as deep as `lower` says
   Vec3 centre;                  // that point, world frame
   double radius = 0;            // no triangle of either surface is nearer to it, rounding included
-  ThicknessStop stop = ThicknessStop::narrow;
+  SearchStop stop = SearchStop::narrow;
   std::uint64_t work = 0;
   std::uint32_t boxes = 0;  // that were bounded
   std::shared_ptr<ThicknessProof> proof;  // of upper, where it was asked for

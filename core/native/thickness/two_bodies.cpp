@@ -6,7 +6,7 @@
 
 #include "base/rounding.hpp"
 #include "exact/triangle_distance.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 
 namespace satcheck {
 namespace {
@@ -57,8 +57,7 @@ double farthest_in(std::span<const Vec3> polygon, const Aabb& box, Vec3 normal, 
 TwoBodies::TwoBodies(const Surface& a, const Surface& b, const ThicknessGoal& goal)
     : surfaces_{&a, &b}, less_{goal.less_a, goal.less_b}, across_(goal.across) {
   for (const Surface* surface : surfaces_) {
-    const Aabb& box = surface->bvh.nodes[0].box;
-    scale_ = std::fmax(scale_, std::fmax(max_abs(box.min), max_abs(box.max)));
+    scale_ = larger(scale_, surface->bvh.nodes[0].box.largest_coordinate());
   }
   rounding_ = kDistanceRoundoffs * kUnitRoundoff * scale_;
 }
@@ -77,11 +76,10 @@ Aabb TwoBodies::widened(const Aabb& box, double reach) const {
 }
 
 void TwoBodies::make_patches(const Aabb& box, double reach, double flatness, Budget& budget) {
-  const Vec3 wide{reach, reach, reach};
   for (int body = 0; body < 2; ++body) {
     const Surface& from = surface(body);
     std::vector<std::uint32_t> triangles;
-    visit_box(from.bvh, from.mesh, {box.min - wide, box.max + wide}, [&](std::uint32_t t) {
+    visit_box(from.bvh, from.mesh, box.widened(reach), [&](std::uint32_t t) {
       if (counts(body, t)) triangles.push_back(t);
       return true;
     }, &budget);

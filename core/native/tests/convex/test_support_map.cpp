@@ -31,7 +31,7 @@ void test_finds_what_the_scan_finds(const std::vector<Vec3>& points) {
   const SupportMap map(points);
   const VertexLanes lanes(points);
   for (Vec3 d : directions(source)) {
-    const CorePoint found = map.support(d);
+    const CorePoint found = map.support(points, d);
     CHECK(found.index == support_index(lanes, d));
     CHECK(found.point == points[found.index]);
   }
@@ -85,7 +85,7 @@ void test_scale_and_proportions() {
 void test_no_direction() {
   testing::Source source(5);
   const std::vector<Vec3> points = source.sphere_points(100);
-  const CorePoint found = SupportMap(points).support({0, 0, 0});
+  const CorePoint found = SupportMap(points).support(points, {0, 0, 0});
   CHECK(found.index < points.size());
 }
 

@@ -41,11 +41,11 @@ void holds_the_truth() {
     const DepthInterval found = search_depth(p.a, p.b, goal);
     CHECK(found.lower <= p.depth + kRounding && found.upper >= p.depth - kRounding);
     CHECK(found.bound >= found.upper && found.upper <= goal.upper);
-    if (found.stop == DepthStop::narrow) {
+    if (found.stop == SearchStop::narrow) {
       ++narrow;
       CHECK(found.upper - found.lower <= 0.01 * found.upper + kRounding);
     } else {
-      CHECK(found.stop == DepthStop::work_spent && found.work >= goal.work);
+      CHECK(found.stop == SearchStop::work_spent && found.work >= goal.work);
     }
     if (found.has_way_out) {
       CHECK(norm(found.way_out) <= found.bound);
@@ -71,8 +71,8 @@ void stops_at_a_limit() {
     const DepthGoal goal{.upper = known_way_out(p), .width = 1e-3, .work = 100'000'000, .limit = 0.5 * p.depth};
     const DepthInterval found = search_depth(p.a, p.b, goal);
     CHECK(found.lower <= p.depth + kRounding);
-    decided += found.stop == DepthStop::decided;
-    if (found.stop == DepthStop::decided) CHECK(found.lower >= goal.limit - kRounding);
+    decided += found.stop == SearchStop::decided;
+    if (found.stop == SearchStop::decided) CHECK(found.lower >= goal.limit - kRounding);
   }
   CHECK(decided > 0);
 }

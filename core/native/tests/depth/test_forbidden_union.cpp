@@ -12,7 +12,7 @@ using namespace satcheck::testing;
 namespace {
 
 constexpr double kLeast = 0.9;
-const TranslationBox kBox{0, {0, 0, 0}, {0.5, 0.5, 0.5}, {}, 0, 0};
+const TranslationBox kBox{{0, 0, 0}, {0.5, 0.5, 0.5}, {}, 0};
 
 // The open box between the corners: the difference of a larger box and the unit cube.
 ForbiddenSet set_of(Vec3 low, Vec3 high) {
@@ -32,9 +32,9 @@ void one_set() {
   CHECK(sets.covered_by_one(cut, kLeast, kLeast) == -INFINITY);
   CHECK(cut.sets.size() == 1 && cut.seen == 1);
   CHECK(sets.covered_by_several(cut, kLeast) == -INFINITY);
-  TranslationBox within{0, {-0.5, 0, 0}, {0.5, 0.5, 0.5}, {}, 0, 0};
+  TranslationBox within{{-0.5, 0, 0}, {0.5, 0.5, 0.5}, {}, 0};
   CHECK(sets.covered_by_one(within, kLeast, kLeast) == INFINITY);
-  TranslationBox beside{0, {1, 0, 0}, {0.5, 0.5, 0.5}, {}, 0, 0};
+  TranslationBox beside{{1, 0, 0}, {0.5, 0.5, 0.5}, {}, 0};
   CHECK(sets.covered_by_one(beside, kLeast, kLeast) == -INFINITY);
   CHECK(beside.sets.empty());
 }

@@ -1,5 +1,4 @@
 // The verdict from what the rungs found, put together by hand: what settles a pair, what is proven, what stays open.
-#include "ladder/verdict.hpp"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include "mesh/convexity.hpp"
 
 #include "convex/convex_hull.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 #include "mesh/transform.hpp"
 #include "tests/boxes.hpp"
 #include "tests/check.hpp"

@@ -8,9 +8,9 @@
 #include "exact/predicates.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/convexity.hpp"
-#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
 #include "mesh/topology.hpp"
-#include "mesh_pair/deviation.hpp"
+#include "mesh_pair/reach.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
 
@@ -98,8 +98,9 @@ void nearest_points() {
 }
 
 void deviations() {
+  Budget unlimited;
   const Surface s = make_surface(unit, true);
-  const auto of = [&](Vec3 low, Vec3 high) { return deviation(box(low, high), s, 1e-4); };
+  const auto of = [&](Vec3 low, Vec3 high) { return deviation(box(low, high), s, 1e-4, unlimited); };
   const auto brackets = [](Deviation d, double truth) {
     return d.lower <= truth && truth <= d.upper && d.upper - d.lower < 1.01e-4;
   };
@@ -111,13 +112,13 @@ void deviations() {
 
   // A wall without thickness has no inside.
   const Mesh wall{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-  CHECK(brackets(deviation(wall, s, 1e-4), 0));
+  CHECK(brackets(deviation(wall, s, 1e-4, unlimited), 0));
   Mesh notch = box({0, 0, 0}, {4, 1, 1});
   append(notch, box({0, 1, 0}, {1, 3, 1}));
   append(notch, box({3, 1, 0}, {4, 3, 1}));
   // The lid over the notch: farthest from the solid in the middle, 1 from both walls.
   const Mesh lid{{{0, 3, 0}, {4, 3, 0}, {4, 3, 1}, {0, 3, 1}}, {{0, 1, 2}, {0, 2, 3}}};
-  CHECK(brackets(deviation(lid, make_surface(notch, true), 1e-4), 1));
+  CHECK(brackets(deviation(lid, make_surface(notch, true), 1e-4, unlimited), 1));
 }
 
 void convexity() {

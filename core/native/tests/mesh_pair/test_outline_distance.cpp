@@ -1,5 +1,5 @@
 // Distances of prisms: walls, ends, limits.
-#include "mesh_pair/outline_distance.hpp"
+#include "mesh_pair/outline_pair.hpp"
 
 #include "tests/check.hpp"
 #include "tests/mesh/prisms.hpp"

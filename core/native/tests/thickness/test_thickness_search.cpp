@@ -43,7 +43,7 @@ void threads_change_nothing() {
 UNIT(thickness_search) {
   const Surface cube = solid_box({0, 0, 0}, {1, 1, 1}), slab = solid_box({-1, -1, 0.875}, {2, 2, 3});
   const ThicknessInterval overlap = search(cube, slab);
-  CHECK(holds(overlap, 0.125) && overlap.stop == ThicknessStop::narrow);
+  CHECK(holds(overlap, 0.125) && overlap.stop == SearchStop::narrow);
   CHECK(overlap.found && overlap.radius <= 0.0625 && overlap.radius >= 0.0618);
   CHECK(winding_number(cube, overlap.centre) == 1 && winding_number(slab, overlap.centre) == 1);
 
@@ -53,17 +53,17 @@ UNIT(thickness_search) {
   const Surface inner = solid_box({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}), far = solid_box({2, 2, 2}, {3, 3, 3});
   CHECK(holds(search(cube, inner), 0.25));
   const ThicknessInterval apart = search(cube, far);
-  CHECK(!apart.found && apart.lower == 0 && apart.upper == 0 && apart.stop == ThicknessStop::narrow);
+  CHECK(!apart.found && apart.lower == 0 && apart.upper == 0 && apart.stop == SearchStop::narrow);
 
   // Surfaces that may be off: the middle of the slab is 0.0625 deep in both.
   ThicknessGoal less;
   less.less_a = 0.03125;
   less.limit = 0;
   const ThicknessInterval deeper = search(cube, slab, less);
-  CHECK(deeper.lower > 0 && deeper.stop == ThicknessStop::decided);
+  CHECK(deeper.lower > 0 && deeper.stop == SearchStop::decided);
   less.less_a = 0.15625;
   const ThicknessInterval shallower = search(cube, slab, less);
-  CHECK(shallower.upper <= 0 && shallower.stop == ThicknessStop::decided);
+  CHECK(shallower.upper <= 0 && shallower.stop == SearchStop::decided);
 
   // Seen along z the prisms overlap by 0.25, and 0.125 is their height.
   const Surface flat = solid_box({0, 0, 0}, {1, 1, 0.125}), beside = solid_box({0.75, -1, 0}, {2, 2, 0.125});
@@ -77,7 +77,7 @@ UNIT(thickness_search) {
   const Surface far_cube = solid_box({away, 0, away}, {away + 1, 1, away + 1});
   const Surface far_slab = solid_box({away - 1, -1, away + 0.875}, {away + 2, 2, away + 3});
   const ThicknessInterval distant = search(far_cube, far_slab);
-  CHECK(holds(distant, 0.125) && distant.stop == ThicknessStop::narrow);
+  CHECK(holds(distant, 0.125) && distant.stop == SearchStop::narrow);
   CHECK(winding_number(far_cube, distant.centre) == 1 && winding_number(far_slab, distant.centre) == 1);
 
   threads_change_nothing();

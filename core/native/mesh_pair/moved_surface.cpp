@@ -1,4 +1,4 @@
-#include "depth/exact_centre.hpp"
+#include "mesh_pair/moved_surface.hpp"
 
 #include <cmath>
 

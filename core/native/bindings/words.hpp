@@ -1,6 +1,7 @@
 // The words for outcomes in Python.
 #pragma once
 
+#include "base/best_first.hpp"
 #include "convex/narrow_phase.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 
@@ -24,6 +25,11 @@ inline const char* name_of(Feature feature) {
 inline const char* name_of(Relation relation) {
   constexpr const char* names[] = {"separated", "touching", "penetrating", "contains", "inside", "coincident"};
   return names[static_cast<int>(relation)];
+}
+
+inline const char* name_of(SearchStop stop) {
+  constexpr const char* names[] = {"narrow", "decided", "work spent"};
+  return names[static_cast<int>(stop)];
 }
 
 }  // namespace satcheck

@@ -1,5 +1,5 @@
 // Moving the origin loses nothing: every coordinate comes back.
-#include "depth/exact_centre.hpp"
+#include "mesh_pair/moved_surface.hpp"
 
 #include <random>
 
@@ -26,7 +26,7 @@ bool comes_back(const Surface& surface, Vec3 centre) {
 
 }  // namespace
 
-UNIT(exact_centre) {
+UNIT(moved_surface) {
   std::mt19937 random(3);
   for (const double far : {1e-3, 1.0, 1e9, 1e15}) {
     for (const double size : {1e-15, 1e-7, 1e-2, 0.125}) {

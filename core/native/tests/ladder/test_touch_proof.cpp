@@ -1,5 +1,5 @@
 // A point deep in two bodies: met where they overlap by more, never where they overlap by less.
-#include "ladder/thick_point.hpp"
+#include "ladder/touch_proof.hpp"
 
 #include "convex/shape.hpp"
 #include "mesh/topology.hpp"
@@ -72,7 +72,7 @@ void flush_boxes_overlap_by_rounding_alone() {
 
 }  // namespace
 
-UNIT(thick_point) {
+UNIT(touch_proof) {
   boxes_overlap_in_a_slab();
   a_body_inside_another();
   a_needle_through_a_box();

@@ -1,9 +1,18 @@
-#include "mesh_pair/wall_corner.hpp"
+#include "depth/planes.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 namespace {
+
+int axis_along(Vec3 unit) {
+  if (unit.y == 0 && unit.z == 0) return 0;
+  if (unit.z == 0 && unit.x == 0) return 1;
+  return unit.x == 0 && unit.y == 0 ? 2 : -1;
+}
 
 // Rounding error of a computed point on a wall, as a share of the largest offset.
 constexpr double kOnWall = 1e-12;
@@ -27,6 +36,32 @@ std::optional<Vec3> on_three(const Wall& p, const Wall& q, const Wall& r) {
 }
 
 }  // namespace
+
+double CornerPlane::distance(Vec3 t) const { return std::fabs(height - dot(normal, t)); }
+
+Vec3 CornerPlane::nearest_to(Vec3 t) const {
+  switch (axis) {
+    case 0: return {height * normal.x, t.y, t.z};
+    case 1: return {t.x, height * normal.y, t.z};
+    case 2: return {t.x, t.y, height * normal.z};
+    default: return t + normal * (height - dot(normal, t));
+  }
+}
+
+std::vector<CornerPlane> corner_planes(const Corners& p, const Corners& q) {
+  std::vector<CornerPlane> planes;
+  for (const bool of_p : {true, false}) {
+    const Corners& face = of_p ? p : q;
+    const Vec3 normal = rounded_normal(face[0], face[1], face[2]);
+    if (!(norm(normal) > 0)) continue;
+    const Vec3 unit = normal * (1 / norm(normal));
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 t = of_p ? q[k] - face[0] : face[0] - p[k];
+      planes.push_back({dot(unit, t), axis_along(unit), unit});
+    }
+  }
+  return planes;
+}
 
 std::optional<Vec3> nearest_beyond(const std::vector<Wall>& walls) {
   if (walls.empty()) return Vec3{};

@@ -1,5 +1,5 @@
 // Nearest points beyond walls against projections onto random ones.
-#include "mesh_pair/wall_corner.hpp"
+#include "depth/planes.hpp"
 
 #include <random>
 
@@ -52,7 +52,7 @@ void no_nearer_point_is_beyond() {
 
 }  // namespace
 
-UNIT(wall_corner) {
+UNIT(planes) {
   faces_edges_and_corners();
   no_nearer_point_is_beyond();
 }
