@@ -1,4 +1,4 @@
-"""decompose/inner_parts.py, regions: large, inside the part, free of the surface but for rounding."""
+"""decompose/inner_parts.py, regions: large, in the part, free of the surface but for rounding."""
 
 from __future__ import annotations
 
