@@ -6,7 +6,6 @@
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/winding.hpp"
-#include "mesh/surface.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 
 namespace satcheck {

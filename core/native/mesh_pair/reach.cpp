@@ -11,7 +11,6 @@
 
 #include "base/best_first.hpp"
 #include "exact/triangle_distance.hpp"
-#include "mesh/surface.hpp"
 
 namespace satcheck {
 namespace {

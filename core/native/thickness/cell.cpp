@@ -117,6 +117,12 @@ Cell part(const Cell& cell, const HalfSpace& plane, const std::vector<double>& b
 
 }  // namespace
 
+Range Cell::along(Vec3 direction) const {
+  Range range;
+  for (const Corner& corner : corners) range.include(dot(direction, corner.at));
+  return range;
+}
+
 Aabb Cell::box() const {
   Aabb result;
   for (const Corner& corner : corners) result.include(corner.at);

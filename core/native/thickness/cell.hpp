@@ -8,6 +8,19 @@
 
 namespace satcheck {
 
+// Of heights along a direction.
+struct Range {
+  double low = INFINITY, high = -INFINITY;
+
+  void include(double height) {
+    low = smaller(low, height);
+    high = larger(high, height);
+  }
+  bool empty() const { return low > high; }
+  double width() const { return high - low; }
+  double middle() const { return (low + high) / 2; }
+};
+
 // normal . p <= height, |normal| = 1 up to rounding.
 struct HalfSpace {
   Vec3 normal;
@@ -26,6 +39,7 @@ struct Cell {
   double error = 0;  // no corner is farther than this from its exact place
 
   Aabb box() const;
+  Range along(Vec3 direction) const;
 };
 
 // A frame of three axes, perpendicular up to rounding, with an interval along each. scale: no coordinate is larger.

@@ -9,7 +9,6 @@
 #include <iterator>
 
 #include "exact/triangle_distance.hpp"
-#include "mesh/surface.hpp"
 #include "thickness/cell_cut.hpp"
 #include "thickness/matrix_game.hpp"
 #include "thickness/void_bound.hpp"
@@ -193,14 +192,10 @@ class CellBound {
       const bool along_axis = (side.normal.x != 0) + (side.normal.y != 0) + (side.normal.z != 0) == 1;
       if (least - patch.slack >= side.height + (along_axis ? 0 : close)) return false;
     }
-    double low = INFINITY, high = -INFINITY;
-    for (const Cell::Corner& corner : cell_.corners) {
-      const double s = dot(patch.normal, corner.at - patch.origin);
-      low = smaller(low, s);
-      high = larger(high, s);
-    }
+    Range heights;
+    for (const Cell::Corner& corner : cell_.corners) heights.include(dot(patch.normal, corner.at - patch.origin));
     const double slack = patch.slack + close;
-    return !(low > slack || high < -slack);
+    return !(heights.low > slack || heights.high < -slack);
   }
 
   double solve() {

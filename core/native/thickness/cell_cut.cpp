@@ -50,14 +50,7 @@ class Chooser {
     return sum;
   }
 
-  HalfSpace halving(Vec3 along) const {
-    double low = INFINITY, high = -INFINITY;
-    for (const Cell::Corner& corner : cell_.corners) {
-      low = smaller(low, dot(along, corner.at));
-      high = larger(high, dot(along, corner.at));
-    }
-    return {along, (low + high) / 2};
-  }
+  HalfSpace halving(Vec3 along) const { return {along, cell_.along(along).middle()}; }
 
   // By how much the mean over the two ends of the way through the cell along an axis is above the value at the mean.
   double gap_along(Vec3 along) const {

@@ -10,7 +10,7 @@
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
 #include "convex/convex_hull.hpp"
-#include "mesh/surface.hpp"
+#include "thickness/cell.hpp"
 #include "thickness/matrix_game.hpp"
 
 namespace satcheck {
@@ -98,18 +98,10 @@ bool is_inside(const Surface& solid, Vec3 p) {
 // coordinate. Rounded up.
 constexpr double kRoundoffs = 64;
 
-struct Extent {
-  double low = INFINITY, high = -INFINITY;
-};
-
-Extent extent(const std::vector<Vec3>& points, Vec3 along) {
-  Extent result;
-  for (const Vec3 p : points) {
-    const double height = dot(along, p);
-    result.low = smaller(result.low, height);
-    result.high = larger(result.high, height);
-  }
-  return result;
+Range range_of(const std::vector<Vec3>& points, Vec3 along) {
+  Range range;
+  for (const Vec3 p : points) range.include(dot(along, p));
+  return range;
 }
 
 // Of the directions, without their part along `across`, the one along which the points extend least.
@@ -120,9 +112,9 @@ Vec3 thinnest(const std::vector<Vec3>& points, const std::vector<Vec3>& directio
     const Vec3 flat = direction - across * dot(across, direction);
     const double length = norm(flat);
     if (!(length > 0.01)) continue;
-    const Extent here = extent(points, flat * (1 / length));
-    if (!(here.high - here.low < least)) continue;
-    least = here.high - here.low;
+    const double here = range_of(points, flat * (1 / length)).width();
+    if (!(here < least)) continue;
+    least = here;
     best = flat * (1 / length);
   }
   return best;
@@ -178,8 +170,8 @@ std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& 
 BoxAlong box_around(const OverlapComponent& component) {
   BoxAlong box{axes_of(component.corners), {}, {}};
   const double rounding = kRoundoffs * kUnitRoundoff * component.bounds.largest_coordinate();
-  Extent of[3];
-  for (int axis = 0; axis < 3; ++axis) of[axis] = extent(component.corners, box.axes.row[axis]);
+  Range of[3];
+  for (int axis = 0; axis < 3; ++axis) of[axis] = range_of(component.corners, box.axes.row[axis]);
   box.low = Vec3{of[0].low, of[1].low, of[2].low} - Vec3{1, 1, 1} * rounding;
   box.high = Vec3{of[0].high, of[1].high, of[2].high} + Vec3{1, 1, 1} * rounding;
   return box;

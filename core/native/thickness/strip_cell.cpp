@@ -6,6 +6,7 @@
 #include "base/rounding.hpp"
 #include "exact/double_double.hpp"
 #include "exact/triangle_distance.hpp"
+#include "thickness/cell.hpp"
 #include "thickness/nearest_to_zero.hpp"
 
 namespace satcheck {
@@ -51,15 +52,6 @@ void cut_off(Shares& polygon, const std::array<double, 3>& heights) {
   }
   polygon = std::move(cut);
 }
-
-struct Range {
-  double low = INFINITY, high = -INFINITY;
-  void include(double h) {
-    low = smaller(low, h);
-    high = larger(high, h);
-  }
-  bool empty() const { return low > high; }
-};
 
 struct Strip {
   Vec3 normal;

@@ -231,12 +231,8 @@ class Search {
   HalfSpace longest_cut(const Cell& cell, int rank) const {
     std::array<std::pair<double, HalfSpace>, 3> cuts;
     for (int axis = 0; axis < 3; ++axis) {
-      double low = INFINITY, high = -INFINITY;
-      for (const Cell::Corner& corner : cell.corners) {
-        low = smaller(low, dot(axes_.row[axis], corner.at));
-        high = larger(high, dot(axes_.row[axis], corner.at));
-      }
-      cuts[static_cast<std::size_t>(axis)] = {high - low, {axes_.row[axis], (low + high) / 2}};
+      const Range along = cell.along(axes_.row[axis]);
+      cuts[static_cast<std::size_t>(axis)] = {along.width(), {axes_.row[axis], along.middle()}};
     }
     std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     return cuts[static_cast<std::size_t>(rank)].second;

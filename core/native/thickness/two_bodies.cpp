@@ -6,7 +6,6 @@
 
 #include "base/rounding.hpp"
 #include "exact/triangle_distance.hpp"
-#include "mesh/surface.hpp"
 
 namespace satcheck {
 namespace {

@@ -20,12 +20,6 @@ std::optional<HalfSpace> wall_of(const ConvexPatches& patches, const Patch& patc
   return HalfSpace{normal, height};
 }
 
-double farthest_corner(const Cell& cell, Vec3 normal) {
-  double most = -INFINITY;
-  for (const Cell::Corner& corner : cell.corners) most = larger(most, dot(normal, corner.at));
-  return most + cell.error;
-}
-
 // Whether corners of a box are outside of a body.
 class BoxCorners {
  public:
@@ -67,7 +61,7 @@ double bound_around(const CellVoid& of, const TwoBodies& bodies, double enough, 
     if (norm_squared(patch.normal) == 0) continue;
     const auto wall = wall_of(bodies.patches(of.body), patch, of.hollow, rounding);
     if (!wall) return INFINITY;
-    if (farthest_corner(of.cell, wall->normal) <= wall->height) continue;
+    if (of.cell.along(wall->normal).high + of.cell.error <= wall->height) continue;
     const double most = wall->height + enough + less - 2 * rounding;
     const double height = bodies.farthest(other, around, wall->normal, near, wall->height, most, budget) + rounding;
     if (height > most || !corners.is_free_beyond({wall->normal, height})) return INFINITY;
