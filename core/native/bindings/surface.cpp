@@ -10,7 +10,7 @@
 
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
-#include "exact/translation.hpp"
+#include "mesh/transform.hpp"
 #include "mesh/closing.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/winding.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "base/mesh.hpp"
 
@@ -25,5 +26,9 @@ double largest_stretch(const Matrix& matrix);
 
 // An upper bound, up to rounding, of |coordinate| after the matrix, for coordinates up to `largest` before.
 double largest_placed(const Matrix& matrix, double largest);
+
+// Whether `move`, added to these points with one rounding of each coordinate, moves no point farther than `length`.
+// Exact if nothing is rounded.
+bool moves_within(std::span<const Vec3> points, Vec3 move, double length);
 
 }  // namespace satcheck
