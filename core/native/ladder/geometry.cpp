@@ -78,7 +78,7 @@ std::shared_ptr<Surface> Geometry::surface_of(Mesh placed) {
 const Aabb& PlacedGeometry::bounds() {
   std::call_once(bounded_, [&] {
     const Aabb box = transform_ ? placed_bounds(*shared_->mesh(), *transform_) : shared_->bounds();
-    if (around_ && !around_->holds(box)) throw std::invalid_argument("the bounds do not hold the mesh as it is placed");
+    if (around_ && !around_->contains(box)) throw std::invalid_argument("the bounds do not hold the mesh as it is placed");
     bounds_ = around_.value_or(box);
   });
   return bounds_;
