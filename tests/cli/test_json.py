@@ -11,8 +11,9 @@ import pytest
 from jsonschema import Draft202012Validator
 from msgspec.structs import replace
 
-from satcheck.audit import Contacts, Report
+from satcheck.audit import Report
 from satcheck.cli.commands.schema import text as schema_text
+from satcheck.report.contacts import Contacts
 from satcheck.report.json import document, render
 from satcheck.report.report import Witness
 from tests.cli import reports

@@ -7,7 +7,8 @@ import json
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit import Finding, PairCounts, Report, Settings, Stage, Summary, Tool
+from satcheck.audit import Finding, Report, Settings
+from satcheck.report.report import PairCounts, Stage, Summary, Tool
 
 FINDING = Finding(
     id="0123456789ab",

@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import pytest
 
 from satcheck import core
-from satcheck.audit import Contacts, Settings, check
+from satcheck.audit import Settings, check
 from satcheck.core.errors import SatcheckError
-from satcheck.report.contacts import ContactTotals
+from satcheck.report.contacts import Contacts, ContactTotals
 from tests.audit.shapes import bracket, moved, open_box, scene_of, unit_box
 
 ASKED = Settings(contacts=True, depth=False)
