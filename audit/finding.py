@@ -67,7 +67,7 @@ def examine(draft: Draft, climb: Climb | None = None) -> Finding:
                 _find_gap(draft)
             if undecided is None:
                 _run_on_request(draft)
-    return _judged(draft) if undecided is None else draft.indeterminate(undecided)
+    return _judged_draft(draft) if undecided is None else draft.indeterminate(undecided)
 
 
 def measure(draft: Draft) -> Finding:
@@ -80,7 +80,7 @@ def measure(draft: Draft) -> Finding:
         return draft.indeterminate(undecided)
     if wants("thickness") and draft.thickness is None:
         measure_thickness(draft)
-    return _judged(draft)
+    return _judged_draft(draft)
 
 
 def examine_boxes(draft: Draft) -> Finding:
@@ -101,7 +101,7 @@ def deep_overlap(pair: Pair) -> Finding:
     neither holds the other. No figure is requested."""
     draft = Draft(pair, relation="penetrating", exact_relation="penetrating")
     draft.record("sort", "penetrating", "an overlap beyond the touch band")
-    return _judged(draft)
+    return _judged_draft(draft)
 
 
 def open_by_fill(pair: Pair, hole: core.OpenHole) -> Finding:
@@ -219,7 +219,7 @@ def _unproven(pair: Pair) -> str:
     return f"not proven at --accuracy {pair.settings.accuracy}"
 
 
-def _judged(draft: Draft) -> Finding:
+def _judged_draft(draft: Draft) -> Finding:
     """Return the finding that the stages have drafted, with its severity."""
     pair, gap = draft.pair, draft.gap
     was_proven = draft.proven

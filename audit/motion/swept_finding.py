@@ -26,7 +26,7 @@ def with_sweep(finding: Finding, draft: Draft, moves: Moves) -> Finding:
     spent = motion.relation == "indeterminate" and pair.sweep_wants_more
     draft.wants_more = draft.wants_more or spent
     draft.record("sweep", motion.relation, _detail(motion))
-    judgement = _judged(finding, motion, pair.request)
+    judgement = _judged_sweep(finding, motion, pair.request)
     if moves.clear and finding.relation in ("separated", "near") and motion.relation == "touching":
         judgement = Judgement("error", CLEAR)
     judgement = by_rule(judgement, pair.request)
@@ -58,7 +58,7 @@ def _worse(placed: Relation, on_the_way: Relation) -> Relation:
     return min(placed, on_the_way, key=order.index)
 
 
-def _judged(finding: Finding, swept: Sweep, request: Request) -> Judgement:
+def _judged_sweep(finding: Finding, swept: Sweep, request: Request) -> Judgement:
     """Judge the motion as a finding with its figures, without the severity that a rule sets.
     Volumes and thicknesses in motion are not measured; no overlap is thicker than it is deep."""
     if swept.relation == "indeterminate":

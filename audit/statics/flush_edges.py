@@ -33,13 +33,15 @@ def without_flush_edges(
         one, other = subjects[contact.a], subjects[contact.b]
         if isinstance(one.form, Features) and isinstance(other.form, Features):
             rounding = rounding_of(one, other, terms.tolerance)
-            points = _judged(contact.points, one.form, other.form, down, rounding)
+            points = _without_edges(contact.points, one.form, other.form, down, rounding)
             contact = replace(contact, points=points)
         judged.append(contact)
     return judged
 
 
-def _judged(points: Points, a: Features, b: Features, down: Floats, rounding: float) -> Points:
+def _without_edges(
+    points: Points, a: Features, b: Features, down: Floats, rounding: float
+) -> Points:
     rows = np.flatnonzero(points.strict & (np.abs(points.normals @ down) > STEEP))
     if not rows.size:
         return points
