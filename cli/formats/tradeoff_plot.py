@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from satcheck.audit.words import duration, number
@@ -39,13 +37,10 @@ def draw(results: Sequence[TradeoffReport], *, dark: bool = False) -> Figure:
             axes.set_title(fitted(title(result)))
             axes.set_xlabel("\n".join(lines), loc="left", size=10)
             _draw_rungs(axes, _drawn(result), palette)
-        panels[-1, 0].set_xlim(*_decades([row for result in results for row in _drawn(result)]))
-        cached = Line2D([], [], marker="o", mfc="none", ls=":", color=palette.faint, label="cached")
-        marks = [
-            Line2D([], [], marker=marker, color=colour, linestyle="none", label=words)
-            for marker, colour, words in _kinds(palette)
-        ]
-        figure.legend(handles=[*marks, cached], loc="outside upper left", ncols=4)
+        for marker, colour, words in _kinds(palette):
+            axes.plot([], [], marker, color=colour, label=words)
+        axes.plot([], [], "o:", mfc="none", color=palette.faint, label="cached")
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=4)
     return figure
 
 
@@ -79,7 +74,7 @@ def _draw_rungs(axes: Axes, rows: Sequence[Row], palette: Palette) -> None:
     errors = [abs(row.error) for row in rows if row.error] or [1.0]
     axes.set_xscale("log")
     axes.set_yscale("symlog", linthresh=min(errors))
-    axes.set_ylim(-0.5 * min(errors), 10 * max(errors))
+    axes.margins(0.1, 0.2)
     axes.set_ylabel("error")
     axes.xaxis.set_major_formatter(FuncFormatter(lambda time, _: duration(time)))
     axes.xaxis.set_minor_locator(NullLocator())
@@ -104,13 +99,6 @@ def _draw_rungs(axes: Axes, rows: Sequence[Row], palette: Palette) -> None:
 def _place(row: Row) -> tuple[float, float]:
     assert row.cold is not None
     return row.cold.median, abs(row.error or 0.0)
-
-
-def _decades(rows: Sequence[Row]) -> tuple[float, float]:
-    """Return whole decades around every time, with room for labels."""
-    times = [t.median for row in rows for t in (row.cold, row.cached) if t is not None] or [1.0]
-    first, last = math.log10(min(times) / 1.5), math.log10(1.5 * max(times))
-    return 10.0 ** math.floor(first), 10.0 ** math.ceil(last)
 
 
 def _remarks(result: TradeoffReport) -> Iterator[str]:
