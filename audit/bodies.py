@@ -194,7 +194,8 @@ def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> P
             placed[index] = cache.place(body, settings, next(bounds))
         except (ValueError, OverflowError) as error:
             unusable[index] = UnusableBody(body, f"cannot be placed: {error}")
-            issues.append(_unplaceable(body, error))
+            code, file = code_of_placing(error), body.file.path
+            issues.append(Issue(code, "error", body.id, file, str(error)))
     for index, reason in _too_short(placed):
         body = placed.pop(index).body
         unusable[index] = UnusableBody(body, reason)
@@ -247,10 +248,6 @@ def _too_short(placed: Mapping[int, PlacedBody]) -> list[tuple[int, str]]:
             if beyond is not None:
                 short.append((index, f"{beyond} lies beyond the reach of the half space"))
     return short
-
-
-def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:
-    return Issue(code_of_placing(error), "error", body.id, body.file.path, str(error))
 
 
 def code_of_placing(error: ArithmeticError | ValueError) -> str:

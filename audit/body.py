@@ -133,11 +133,13 @@ class SharedMesh:
         self.surface_tolerance = settings.surface_tolerance
         self.largest = file.mesh.largest_coordinate
         health = file.health
-        self.geometry = core.Geometry(file.mesh, health.solid, health.plain_solid, is_open)
+        self.geometry = geometry = core.Geometry(
+            file.mesh, health.solid, health.plain_solid, is_open
+        )
         # None of these holds this object, so that it goes with its last body, not with a later
         # search for cycles.
-        self.covers_once = Once(partial(_covers_once, self.geometry))
-        self.has_sheets = Once(partial(_has_sheets, self.geometry))
+        self.covers_once = Once(lambda: core.covers_once(geometry.surface()))
+        self.has_sheets = Once(lambda: core.has_sheets(geometry.surface()))
         self.decomposition = Once(partial(_decomposition, file, settings))
         self.shape = Once(partial(_shape, file, is_open))
 
@@ -149,14 +151,6 @@ class SharedMesh:
             *(asked.allow_open, asked.surface_tolerance, asked.part_threshold, asked.part_seed),
             *(asked.part_seconds, asked.part_megabytes, asked.cache, asked.cache_directory),
         )
-
-
-def _covers_once(geometry: core.Geometry) -> bool:
-    return core.covers_once(geometry.surface())
-
-
-def _has_sheets(geometry: core.Geometry) -> bool:
-    return core.has_sheets(geometry.surface())
 
 
 def _shape(file: MeshFile, allow_open: bool) -> Shape:

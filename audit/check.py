@@ -26,9 +26,7 @@ from satcheck.audit.summary import (
     body_reports,
     count,
     doubtful_sizes,
-    exempt_of,
     issues_of,
-    stated_reading,
     stopped_early,
     tool,
 )
@@ -37,6 +35,7 @@ from satcheck.report.report import (
     ENOUGH_FAILURES,
     OUTSIDE_REGION,
     REGION_OPEN,
+    Exempt,
     Finding,
     Issue,
     Report,
@@ -45,11 +44,11 @@ from satcheck.report.report import (
 )
 from satcheck.report.verdict import fails, summarise, truncated_of
 from satcheck.scene import Scene
+from satcheck.scene.files.readers import stated_options
 
 if TYPE_CHECKING:
     from satcheck.audit.motion.movers import Movers
     from satcheck.core.overlap_volume import VolumeMeter
-    from satcheck.core.peers import Peers
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
     from satcheck.report.statics import Statics
@@ -140,9 +139,9 @@ def _report(
         units=scene.units,
         settings=planner.stated(),
         summary=Summary("incomplete", counts, {}),  # what follows from the rest is not known yet
-        reading=stated_reading(scene),
+        reading=stated_options(scene.reading, {body.file.format for body in scene.bodies}),
         bodies=body_reports(bodies),
-        exempt=exempt_of(scene),
+        exempt=Exempt(tuple(sorted(scene.ignore_within_groups)), not scene.check_static),
         rules=bodies.book.rules,
         effects=effects_of(
             planner,
@@ -284,7 +283,12 @@ def _examined_together(
     with ExitStack() as stack:
         measures = any(request.wants("volume") for request in requests)
         meter = stack.enter_context(volume_meter(settings)) if measures else None
-        peers = stack.enter_context(_peers(settings)) if settings.cross_check else None
+        peers = None
+        if settings.cross_check:
+            from satcheck.core.peers import Peers
+
+            seconds, megabytes = settings.cross_check_seconds, settings.cross_check_megabytes
+            peers = stack.enter_context(Peers(seconds=seconds, megabytes=megabytes))
         pairs = [
             Pair(
                 bodies.placed[i],
@@ -306,12 +310,6 @@ def volume_meter(settings: Settings) -> VolumeMeter:
     from satcheck.core.overlap_volume import VolumeMeter
 
     return VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)
-
-
-def _peers(settings: Settings) -> Peers:
-    from satcheck.core.peers import Peers
-
-    return Peers(seconds=settings.cross_check_seconds, megabytes=settings.cross_check_megabytes)
 
 
 def _findings(

@@ -18,7 +18,6 @@ from satcheck.audit.body import box_escape
 from satcheck.audit.checked_pairs import PARALLEL_PAIRS, CheckedPair, finished, guarded
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import measure
-from satcheck.audit.pair import Pair
 from satcheck.audit.parallel import in_parallel
 from satcheck.audit.planner import FOR_FAILURES
 from satcheck.audit.settings import THICKNESS_SHARE, Settings
@@ -41,7 +40,8 @@ def with_figures(
     keep: do not release the data of the bodies."""
     pairs = list(examined)
     drafts = {k: pair.draft for k, pair in enumerate(pairs) if pair.draft is not None}
-    order = sorted(drafts, key=lambda k: (-_overlap_of_boxes(drafts[k].pair), k))
+    overlap = {k: box_escape(d.pair.a.bounds, d.pair.b.bounds)[0] for k, d in drafts.items()}
+    order = sorted(drafts, key=lambda k: (-overlap[k], k))
     left = budget = settings.work
     for number, k in enumerate(order):
         if left <= 0:
@@ -61,10 +61,6 @@ def with_figures(
         draft.pair.a.release()
         draft.pair.b.release()
     return pairs
-
-
-def _overlap_of_boxes(pair: Pair) -> float:
-    return box_escape(pair.a.bounds, pair.b.bounds)[0]
 
 
 def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, int]:

@@ -23,7 +23,6 @@ from satcheck.core.conventions import Vector
 from satcheck.core.risky_steps import is_careful
 from satcheck.report.judge import Judgement, by_rule
 from satcheck.report.report import SEVERITIES, Finding
-from satcheck.report.request import Request
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.half_spaces import holds, reach_in_world
 
@@ -50,11 +49,9 @@ class PosedPairs:
         self._bodies, self.pairs, self._settings = bodies, pairs, pairs[0].settings
         place = {body.id: k for k, body in enumerate(bodies)}
         self._places = [(place[pair.a.id], place[pair.b.id]) for pair in pairs]
-        self.deep_fails = np.array([self._deep_fails(pair.request) for pair in pairs], bool)
-
-    def _deep_fails(self, request: Request) -> bool:
-        severity = by_rule(Judgement("error"), request).severity
-        return SEVERITIES.index(severity) <= SEVERITIES.index(self._settings.fail_on)
+        least = SEVERITIES.index(self._settings.fail_on)
+        deep = [by_rule(Judgement("error"), pair.request).severity for pair in pairs]
+        self.deep_fails = np.array([SEVERITIES.index(severity) <= least for severity in deep], bool)
 
     def sift(self, matrices: Numbers, margins: Numbers | None = None) -> Codes:
         """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: as those of `PoseBatch`,

@@ -114,7 +114,10 @@ class SampleResults:
         assert book is not None
         if any(issue.state == "blocking" for issue in self.issues):
             self.by_verdict["incomplete"] += self.by_verdict.pop("pass", 0)
-            self.listed = [_incomplete_at_most(sample) for sample in self.listed]
+            self.listed = [
+                replace(sample, verdict="incomplete") if sample.verdict == "pass" else sample
+                for sample in self.listed
+            ]
         ids = [body.id for body in first.bodies]
         pairs = tuple(self.tally(ids[i], ids[j]) for i, j in book.checked_pairs())
         counts, settled = first.summary.pairs, sum(pair.settled for pair in pairs)
@@ -155,10 +158,6 @@ def _with_messages(sample: SampledPose, first: Report) -> SampledPose:
     """first: of the poses; all have its units, rules and settings."""
     found = (replace(f, message=finding_message(f, first)) for f in sample.findings)
     return replace(sample, findings=tuple(found))
-
-
-def _incomplete_at_most(sample: SampledPose) -> SampledPose:
-    return replace(sample, verdict="incomplete") if sample.verdict == "pass" else sample
 
 
 def is_plain(finding: Finding) -> bool:

@@ -21,18 +21,15 @@ from satcheck.report.report import (
     STOPPED_EARLY,
     TOLERANCE_LARGE,
     BodyReport,
-    Exempt,
     Finding,
     Issue,
     PairCounts,
     PartError,
     Tool,
 )
-from satcheck.report.settings import StatedReading
 from satcheck.report.verdict import exempt_by, unlisted_indeterminate
 from satcheck.scene import Body, Unreadable
 from satcheck.scene.bodies import Accepted
-from satcheck.scene.files.readers import stated_options
 from satcheck.scene.planar.outline import Outline as FlatOutline
 from satcheck.scene.planar.outline import Shape
 from satcheck.scene.words import listed
@@ -116,19 +113,8 @@ def _body_report(body: PlacedBody) -> BodyReport:
     )
 
 
-def stated_reading(scene: Scene) -> StatedReading | None:
-    """The options that count for the formats of the files in the scene."""
-    return stated_options(scene.reading, {body.file.format for body in scene.bodies})
-
-
 def stated_shape(shape: Shape | None) -> StatedShape | None:
     return Outline(shape.points) if isinstance(shape, FlatOutline) else shape
-
-
-def exempt_of(scene: Scene) -> Exempt:
-    return Exempt(
-        groups=tuple(sorted(scene.ignore_within_groups)), static_pairs=not scene.check_static
-    )
 
 
 def issues_of(

@@ -61,7 +61,8 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
     for place, hull in enumerate(core.component_balls(a, b, overlap)):
         component, ball = components[place], Ball(hull.lower, hull.upper, hull.centre)
         is_open = ball.upper - ball.lower > width * ball.upper
-        if component.resolved and is_open and _in_range(component.bounds):
+        size = max(high - low for low, high in zip(*component.bounds, strict=True))
+        if component.resolved and is_open and size >= SMALLEST_SIZE:  # else it is not searched
             others = [other.bounds for other in components[:place] + components[place + 1 :]]
             share = work // (len(components) - place)
             with pair.searching(
@@ -73,11 +74,6 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
             work -= min(work, search.work)
             ball = _narrowed(ball, search, others if overlap.resolved else None)
         yield ball
-
-
-def _in_range(bounds: tuple[Vector, Vector]) -> bool:
-    """Whether a component is not too small to be searched."""
-    return max(high - low for low, high in zip(*bounds, strict=True)) >= SMALLEST_SIZE
 
 
 def _narrowed(

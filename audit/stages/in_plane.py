@@ -12,7 +12,6 @@ So
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 from msgspec.structs import replace
 
@@ -117,7 +116,8 @@ def depth_of_curves(draft: Draft, depth: Depth) -> Depth:
 
 def _way_out(pair: Pair, ways: list[tuple[float, Vector]], pad: float) -> Escape | None:
     """The shortest translation of those tried that leaves a gap for the curves; None: none did."""
-    for length, normal in sorted(_lengthened(pair, ways)):
+    tried = ((length + k * pair.closer, normal) for length, normal in ways for k in _LONGER)
+    for length, normal in sorted(tried):
         total = length + 4 * pad
         move = _along(normal, total)
         if _leaves_gap(pair, move, pad):
@@ -128,12 +128,6 @@ def _way_out(pair: Pair, ways: list[tuple[float, Vector]], pad: float) -> Escape
 def _along(normal: Vector, length: float) -> Vector:
     x, y, z = scaled(normal, -length)
     return x + 0.0, y + 0.0, z + 0.0  # no negative zeros
-
-
-def _lengthened(pair: Pair, ways: list[tuple[float, Vector]]) -> Iterator[tuple[float, Vector]]:
-    for length, normal in ways:
-        for share in _LONGER:
-            yield length + share * pair.closer, normal
 
 
 def _leaves_gap(pair: Pair, move: Vector, pad: float) -> bool:

@@ -52,11 +52,7 @@ class Subject(Struct, frozen=True):
         return self.body.id
 
 
-def subjects_of(bodies: Sequence[PlacedBody], terms: Sequence[BodyTerms]) -> list[Subject]:
-    return [_subject(body, own) for body, own in zip(bodies, terms, strict=True)]
-
-
-def _subject(body: PlacedBody, terms: BodyTerms) -> Subject:
+def subject_of(body: PlacedBody, terms: BodyTerms) -> Subject:
     fixed: Literal["static", "mounted"] | None = None
     if body.body.static:
         fixed = "static"

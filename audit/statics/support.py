@@ -20,7 +20,7 @@ from satcheck.audit.statics.flush_edges import without_flush_edges
 from satcheck.audit.statics.graph import graph_of
 from satcheck.audit.statics.islands import Outcome, left_open, outcome_of
 from satcheck.audit.statics.margins import with_margins
-from satcheck.audit.statics.subjects import subjects_of, terms_for
+from satcheck.audit.statics.subjects import subject_of, terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of
 from satcheck.core.errors import SatcheckError
 from satcheck.core.risky_steps import not_for_lack_of_memory
@@ -65,9 +65,7 @@ class Support:
         self.unusable = {
             body.id: (body.reason, everything[k]) for k, body in bodies.unusable.items()
         }
-        self.subjects = subjects_of(
-            [bodies.placed[k] for k in index], [everything[k] for k in index]
-        )
+        self.subjects = [subject_of(bodies.placed[k], everything[k]) for k in index]
         free = [subject.body for subject in self.subjects if subject.fixed is None]
         self.terms = terms_for(scene, free)
         alone = not self.unusable
