@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING, get_args
+from collections.abc import Iterable
+from typing import get_args
 
 from msgspec.structs import replace
 
@@ -24,10 +25,6 @@ from satcheck.report.samples import (
 )
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot.postures import PoseBatch
-
-if TYPE_CHECKING:
-    from satcheck.core.transform import Transform
-    from satcheck.scene import Scene
 
 # A report lists all samples up to this number. Of more samples it lists the first ones with a
 # finding, so many.
@@ -59,30 +56,34 @@ class SampleResults:
 
     def check(self, batch: PoseBatch, row: int) -> SampledPose:
         """Checks a pose as a scene of its own."""
-        scene = batch.posed(row)
-        report = check(scene, self.settings, cache=self.cache)
+        report = check(batch.posed(row), self.settings, cache=self.cache)
         self.first = self.first or report
-        posture = scene.posture
-        assert posture is not None
-        own = {(issue.code, issue.message) for issue in posture.issues}
+        own = {(issue.code, issue.message) for issue in batch.posture(row).issues}
         of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
         others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
         self.issues |= dict.fromkeys(others)
-        findings = tuple(finding for finding in report.findings if not is_plain(finding))
-        verdict = report.summary.verdict
-        moved = self.moved(scene) if findings else {}
-        number = batch.first + row
-        return SampledPose(number, posture.pose(), verdict, findings, tuple(of_pose), moved)
+        return self.sample(batch, row, report.summary.verdict, report.findings, of_pose)
 
-    def moved(self, scene: Scene) -> dict[str, Transform]:
-        """Return the placement of each body that does not stand as in the first sample."""
+    def sample(
+        self,
+        batch: PoseBatch,
+        row: int,
+        verdict: Verdict,
+        findings: Iterable[Finding],
+        issues: Iterable[Issue],
+    ) -> SampledPose:
+        """Return a pose with those findings that are not plain, and with the placement of each body
+        that does not stand as in the first sample."""
         assert self.first is not None
+        told = tuple(finding for finding in findings if not is_plain(finding))
         first = {body.id: body.transform for body in self.first.bodies}
-        return {
+        moved = {
             body.id: body.transform or IDENTITY
-            for body in scene.bodies
+            for body in (batch.posed(row).bodies if told else ())
             if body.transform != first[body.id]
         }
+        number, pose = batch.first + row, batch.posture(row).pose()
+        return SampledPose(number, pose, verdict, told, tuple(issues), moved)
 
     def add(self, batch: PoseBatch, row: int) -> None:
         """Adds what the check of a pose says."""

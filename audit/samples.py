@@ -8,7 +8,7 @@ check of one pose.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from itertools import chain
 
@@ -61,25 +61,18 @@ def check_poses(
     first = next(batches)  # all poses are judged before work is done
     pairs, batches = _sortable(results, first), chain((first,), batches)
     with ExitStack() as stack:
-        if pairs is None:
-            counted = _checked_alone(results, batches)
-        else:
+        if pairs is not None:
             by_volume = any(pair.request.wants("volume") for pair in pairs.pairs)
             meter = stack.enter_context(volume_meter(settings)) if by_volume else None
-            counted = sorted_and_counted(results, batches, pairs, meter)
-        for batch in counted:
+            batches = sorted_and_counted(results, batches, pairs, meter)
+        for batch in batches:
+            for row in range(batch.count) if pairs is None else ():
+                results.add(batch, row)
             results.keep_first_poses(batch)
             for number in range(batch.first, batch.first + batch.count):
                 if progress is not None:
                     progress(number, len(poses))
     return results.report(len(poses))
-
-
-def _checked_alone(results: SampleResults, batches: Iterator[PoseBatch]) -> Iterator[PoseBatch]:
-    for batch in batches:
-        for row in range(batch.count):
-            results.add(batch, row)
-        yield batch
 
 
 def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:

@@ -18,7 +18,6 @@ from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs
 from satcheck.audit.sample_results import SampleResults, is_plain
 from satcheck.report.report import Finding, Issue, Verdict
-from satcheck.report.samples import SampledPose
 from satcheck.report.verdict import fails
 from satcheck.scene.robot.postures import PoseBatch
 
@@ -84,7 +83,13 @@ class _SortedBatch:
             if row in self._alone:
                 self._results.add(self._batch, row)
             else:
-                self._results.listed.append(self._sample(row, verdicts[row]))
+                found, posture = self._findings(row), self._batch.posture(row)
+                issues = (
+                    Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues
+                )
+                self._results.listed.append(
+                    self._results.sample(self._batch, row, verdicts[row], found, issues)
+                )
         return self._batch
 
     def _listed(self) -> NDArray[np.bool_]:
@@ -130,14 +135,6 @@ class _SortedBatch:
     def _findings(self, row: int) -> tuple[Finding, ...]:
         found = sorted(self._found.get(row, {}).items())
         return tuple(finding for _, finding in found if not is_plain(finding))
-
-    def _sample(self, row: int, verdict: Verdict) -> SampledPose:
-        posture = self._batch.posture(row)
-        issues = tuple(Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues)
-        number = self._batch.first + row
-        findings = self._findings(row)
-        moved = self._results.moved(self._batch.posed(row)) if findings else {}
-        return SampledPose(number, posture.pose(), verdict, findings, issues, moved)
 
     def _verdicts(self) -> dict[int, Verdict]:
         """Return the verdict on each pose that needs no check of its own, all of them counted: by
