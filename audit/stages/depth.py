@@ -96,11 +96,11 @@ def verified_escape(
     pair = draft.pair
     if not pair.may("hull"):
         draft.record("verify", "not asked", "the capped ladder has nothing to verify with")
-        return Escape(_along(normal, length), normal, False, math.inf)
+        return Escape(against(normal, length), normal, False, math.inf)
     ulp = 2 * UNIT_ROUNDOFF * (pair.largest_coordinate + length)
     steps = (0, *LENGTHENING_ULPS) if adds_exactly(pair, length, normal) else LENGTHENING_ULPS
     for step in steps:
-        mtv = _along(normal, length + step * ulp)
+        mtv = against(normal, length + step * ulp)
         relation = relation_after(pair, mtv)
         if relation in FREE:
             longer = f", lengthened by {step} units in the last place" if step else ""
@@ -112,7 +112,7 @@ def verified_escape(
         return Escape(found, normal, True, length + 2 * ulp)
     most = f"{LENGTHENING_ULPS[-1]} units in the last place"
     draft.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
-    return Escape(_along(normal, length), normal, False, math.inf)
+    return Escape(against(normal, length), normal, False, math.inf)
 
 
 def relation_after(pair: Pair, translation: Vector) -> str:
@@ -135,7 +135,8 @@ def relation_after(pair: Pair, translation: Vector) -> str:
     ).outcome
 
 
-def _along(normal: Vector, length: float) -> Vector:
+def against(normal: Vector, length: float) -> Vector:
+    """Return the translation of this length against the normal."""
     # Adding 0.0 turns a negative zero into zero.
     return -length * normal[0] + 0.0, -length * normal[1] + 0.0, -length * normal[2] + 0.0
 

@@ -19,8 +19,7 @@ from satcheck import core
 from satcheck.audit.body import Box, PlacedBody
 from satcheck.audit.draft import Depth, Draft, Escape, Gap
 from satcheck.audit.pair import Pair
-from satcheck.audit.stages.depth import relation_after, way_out_of_hulls
-from satcheck.audit.vectors import scaled
+from satcheck.audit.stages.depth import against, relation_after, way_out_of_hulls
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.rounding import rounding_pad
 from satcheck.report.judge import keeps
@@ -107,7 +106,7 @@ def depth_of_curves(draft: Draft, depth: Depth) -> Depth:
         no_move = f"no move leaves a gap of {pair.closer:.3g} for the curves"
         draft.record("verify", "failed", no_move)
         length, normal = ways[-1]
-        escape = Escape(_along(normal, length + pair.closer), normal, False, math.inf)
+        escape = Escape(against(normal, length + pair.closer), normal, False, math.inf)
     else:
         draft.record("verify", "separated", f"A moved past its curves, by {pair.closer:.3g} more")
     upper = max(min(*bounds, escape.bound), depth.lower)
@@ -119,15 +118,10 @@ def _way_out(pair: Pair, ways: list[tuple[float, Vector]], pad: float) -> Escape
     tried = ((length + k * pair.closer, normal) for length, normal in ways for k in _LONGER)
     for length, normal in sorted(tried):
         total = length + 4 * pad
-        move = _along(normal, total)
+        move = against(normal, total)
         if _leaves_gap(pair, move, pad):
             return Escape(move, normal, True, total + pad)
     return None
-
-
-def _along(normal: Vector, length: float) -> Vector:
-    x, y, z = scaled(normal, -length)
-    return x + 0.0, y + 0.0, z + 0.0  # no negative zeros
 
 
 def _leaves_gap(pair: Pair, move: Vector, pad: float) -> bool:

@@ -77,8 +77,11 @@ def _explained(draft: Draft) -> Band | None:
 
 def _by_moves(draft: Draft) -> Band:
     pair = draft.pair
+    climb = draft.climb
     if draft.signed is not None:
-        return _band_of_convex(draft, draft.signed)
+        if climb is None or (pair.on_half_space and climb.band != "within"):
+            return Band(_side_by_depth(pair, draft.signed))
+        return Band(climb.band or "open")
     if not pair.may("exact"):
         return Band("within" if estimate_is_within(draft) else "open")
     if max(pair.off) == 0:
@@ -86,17 +89,9 @@ def _by_moves(draft: Draft) -> Band:
     if pair.curved:
         move = _move_off_mesh(draft)
         return Band("open" if move is None else "within", move)
-    if draft.climb is None:
+    if climb is None:
         raise AssertionError("the core settles what two meshes are")
-    return _band_of_meshes(draft, draft.climb)
-
-
-def _band_of_convex(draft: Draft, signed: core.PairResult | Signed) -> Band:
-    pair = draft.pair
-    climb = draft.climb
-    if pair.on_half_space and climb is not None and climb.band != "within":
-        climb = None
-    return Band(_side_by_depth(pair, signed) if climb is None else climb.band or "open")
+    return _band_of_meshes(draft, climb)
 
 
 def _side_by_depth(pair: Pair, signed: core.PairResult | Signed) -> Side:
