@@ -3,8 +3,6 @@ scene, of their convex hulls in space, or of those of their outlines in a plane.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from satcheck import core
@@ -46,14 +44,8 @@ RELATIONS: dict[str, report.HullRelation] = {
 _STATES: dict[int, report.AxisState] = {1: "gap", 0: "touch", -1: "overlap"}
 
 
-class Compared(NamedTuple):
-    """Two hulls, or outlines, how many candidates they have, and their axes in the order of
-    testing."""
-
-    a: report.AxesBody
-    b: report.AxesBody
-    counts: report.AxisCounts
-    axes: list[report.CandidateAxis]
+# Two hulls, or outlines, how many candidates they have, and their axes in the order of testing.
+Compared = tuple[report.AxesBody, report.AxesBody, report.AxisCounts, list[report.CandidateAxis]]
 
 
 def axes_of(
@@ -82,8 +74,9 @@ def axes_of(
     relation: report.HullRelation = (
         "indeterminate" if answer.outcome == "undecided" else answer.outcome
     )
-    compared = _in_plane(pair, planar) if planar else _in_space(pair, *hulls, relation=relation)
-    a, b, counts, axes = compared
+    a, b, counts, axes = (
+        _in_plane(pair, planar) if planar else _in_space(pair, *hulls, relation=relation)
+    )
     winner = winner_of(axes)
     if pair.closer and winner is None:
         relation = "indeterminate"
@@ -151,7 +144,7 @@ def _in_space(
         ),
         distinct=len(axes),
     )
-    return Compared(*stated, counts, axes)
+    return *stated, counts, axes
 
 
 def _edge_directions(hull: Hull) -> int:
@@ -198,12 +191,12 @@ def _in_plane(pair: Pair, plane: Plane) -> Compared:
     unit, _ = directions(world, axes)
     differ = direction_count(unit[a], off[a]), direction_count(unit[b], off[b]), 0
     counts = report.AxisCounts(m + n, 0, 0, differ, len(shown))
-    return Compared(_outlined(pair.a, m), _outlined(pair.b, n), counts, shown)
-
-
-def _outlined(body: PlacedBody, corners: int) -> report.AxesBody:
-    file = body.body.file
-    return report.AxesBody(body.id, file.path, file.outline is not None, corners, 0, corners)
+    sides = ((body.id, body.body.file, n) for body, n in ((pair.a, m), (pair.b, n)))
+    first, second = (
+        report.AxesBody(id_, file.path, file.outline is not None, corners, 0, corners)
+        for id_, file, corners in sides
+    )
+    return first, second, counts, shown
 
 
 def axes_shown(

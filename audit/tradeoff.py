@@ -241,19 +241,20 @@ def _boolean(bodies: Bodies, settings: Settings) -> Row:
             draft = Draft(pair, exact="penetrating")
             measure_volume(draft)
             took.append(_times([1e6 * (perf_counter() - start)]))
-            if draft.volume is None or draft.volume_error is None:
+            volume, error = draft.volume, draft.volume_error
+            if volume is None or error is None:
                 raise SatcheckError("no-volume", draft.reason or "no volume")
-    known = draft.volume == 0 or draft.volume > draft.volume_error
-    return Row(
-        rung="boolean",
-        state="answered",
-        overlap=draft.volume > 0 if known else None,
-        volume=draft.volume,
-        volume_error=draft.volume_error,
-        reason=None if known else "the volume lies within its own error",
-        cold=took[0],
-        cached=took[1],
-    )
+        known = volume == 0 or volume > error
+        return Row(
+            rung="boolean",
+            state="answered",
+            overlap=volume > 0 if known else None,
+            volume=volume,
+            volume_error=error,
+            reason=None if known else "the volume lies within its own error",
+            cold=took[0],
+            cached=took[1],
+        )
 
 
 def _truth(exact: Runs) -> Truth:
