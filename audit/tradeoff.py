@@ -241,9 +241,9 @@ def _boolean(bodies: Bodies, settings: Settings) -> Row:
             draft = Draft(pair, exact="penetrating")
             measure_volume(draft)
             took.append(_times([1e6 * (perf_counter() - start)]))
-            volume, error = draft.volume, draft.volume_error
-            if volume is None or error is None:
+            if draft.volume is None or draft.volume_error is None:
                 raise SatcheckError("no-volume", draft.reason or "no volume")
+            volume, error = draft.volume, draft.volume_error
         known = volume == 0 or volume > error
         return Row(
             rung="boolean",
