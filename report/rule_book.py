@@ -2,7 +2,8 @@
 
 Bodies are indices. If each selector of a rule chooses one body, the rule is stored under this pair.
 All other rules sort the bodies into kinds, and their effect on a pair depends only on the two
-kinds. Pairs are counted as bits in rows of the matrix of pairs, one row for each kind.
+kinds. So pairs are counted by the matrix of pairs, a row for each kind: an integer
+whose bits are the pairs of one body.
 """
 
 from __future__ import annotations
@@ -10,8 +11,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Protocol
 
-from satcheck.report.pair_rows import A, B, Kind, PairRows, Sides, ones, row_of
+from msgspec import Struct
+
 from satcheck.report.report import RuleReport
+
+# The side of a rule that a body is on, as bits. A body may be on both.
+A, B = 1, 2
+# The members on either side of a rule.
+Sides = tuple[frozenset[int], frozenset[int]]
 
 # At most this many exempt pairs of kinds are listed.
 _MOST_KINDS = 1_000_000
@@ -38,6 +45,15 @@ class Subject(Protocol):
 
     @property
     def static(self) -> bool: ...
+
+
+class Kind(Struct, frozen=True):
+    """A class of bodies that all rules treat alike. sides: (number of a rule, sides of the bodies)
+    in the order of the rules. fixed: their pairs with each other are not checked."""
+
+    sides: tuple[tuple[int, int], ...]
+    ignored_groups: frozenset[str]
+    fixed: bool
 
 
 class RuleBook:
@@ -188,12 +204,11 @@ class RuleBook:
             return number * (number - 1) // 2, 0
         total = allowed = 0
         everyone = (1 << self._count) - 1 if among is None else row_of(among)
-        rows = PairRows(self._kinds, self.rules, self._sides, self._bodies)
-        for kind, of_kind in zip(self._kinds, self._bodies, strict=True):
+        for of_kind, (ignored, permitted) in zip(self._bodies, self._rows(), strict=True):
             bodies = of_kind if among is None else [k for k in of_kind if k in among]
-            asked = everyone & ~rows.ignored(kind)
+            asked = everyone & ~ignored
             total += ones(asked, bodies)
-            allowed += ones(asked & rows.allowed(kind), bodies)
+            allowed += ones(asked & permitted, bodies)
         total, allowed = total // 2, allowed // 2
         for i, j in self._named:
             if (among is None or (i in among and j in among)) and not self.is_ignored(i, j):
@@ -209,28 +224,66 @@ class RuleBook:
         _MOST_KINDS."""
         if self._is_plain:
             return []
-        alone = [frozenset((k,)) for k in range(len(self._kinds))]
-        kinds_in = dict.fromkeys(members for pair in self._sides for members in pair)
-        kind_sets = {
-            members: frozenset(map(self.kind_of.__getitem__, members)) for members in kinds_in
-        }
-        sides = [(kind_sets[a], kind_sets[b]) for a, b in self._sides]
-        rows = PairRows(self._kinds, self.rules, sides, alone)
         taken_back = {
             tuple(sorted((self.kind_of[i], self.kind_of[j])))
             for i, j in self._named
             if self.is_checked(i, j)
         }
         exempt: list[tuple[int, int]] = []
-        for number, kind in enumerate(self._kinds):
-            row = (rows.ignored(kind) | rows.allowed(kind)) >> number
+        first = row_of(bodies[0] for bodies in self._bodies)
+        for number, (ignored, permitted) in enumerate(self._rows()):
+            row = (ignored | permitted) & first
             while row and len(exempt) < _MOST_KINDS:
                 lowest = row & -row
-                pair = (number, number + lowest.bit_length() - 1)
                 row ^= lowest
-                if pair not in taken_back:
+                pair = (number, self.kind_of[lowest.bit_length() - 1])
+                if number <= pair[1] and pair not in taken_back:
                     exempt.append(pair)
         return exempt
+
+    def _rows(self) -> Iterator[tuple[int, int]]:
+        """Yield two rows for each kind: its pairs that are ignored, and those that rules about
+        several pairs allow."""
+        fixed = row_of(k for k, kind in enumerate(self.kind_of) if self._kinds[kind].fixed)
+        within: dict[str, list[int]] = {}
+        for kind, bodies in zip(self._kinds, self._bodies, strict=True):
+            for group in kind.ignored_groups:
+                within.setdefault(group, []).extend(bodies)
+        groups = {group: row_of(bodies) for group, bodies in within.items()}
+        known: dict[frozenset[int], int] = {}  # of one body they would fill the memory
+
+        def row(members: frozenset[int]) -> int:
+            if len(members) > 1 and members not in known:
+                known[members] = row_of(members)
+            return known[members] if members in known else row_of(members)
+
+        for kind in self._kinds:
+            ignored, allowed = fixed if kind.fixed else 0, 0
+            for group in kind.ignored_groups:
+                ignored |= groups[group]
+            for number, sides in kind.sides:
+                a, b = self._sides[number]
+                if (allows := self.rules[number].allowed) is not None:
+                    others = (row(b) if sides & A else 0) | (row(a) if sides & B else 0)
+                    allowed = allowed | others if allows else allowed & ~others
+            yield ignored, allowed
+
+
+def row_of(members: Iterable[int]) -> int:
+    """Return the integer with these bits set."""
+    members = tuple(members)
+    if len(members) == 1:
+        return 1 << members[0]
+    octets = bytearray(max(members, default=0) // 8 + 1)
+    for k in members:
+        octets[k >> 3] |= 1 << (k & 7)
+    return int.from_bytes(octets, "little")
+
+
+def ones(row: int, bodies: Sequence[int]) -> int:
+    """Return the number of ones in the row, summed over these bodies; for each body without its own
+    bit."""
+    return len(bodies) * row.bit_count() - (row & row_of(bodies)).bit_count()
 
 
 def _allows(terms: Terms) -> bool:
