@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable
-from typing import NamedTuple
+from collections.abc import Callable, Collection, Iterable
 
 from satcheck.audit.planner import FOR_FAILURES, Planner
 from satcheck.report.report import (
@@ -15,10 +14,8 @@ from satcheck.report.report import (
     EffectReport,
     Finding,
     PairCounts,
-    Relation,
 )
 from satcheck.report.request import ON_REQUEST, Request
-from satcheck.report.settings import FailOn
 from satcheck.report.verdict import fails
 
 # Stages that are part of an effect of another name. All that no effect is named after decide the
@@ -40,21 +37,6 @@ FAILED = "not decided"
 NO_ANSWER = "no answer"
 
 
-class _Kind(NamedTuple):
-    """What counts here of a finding. Most findings have many equals.
-
-    called_for: effects that nobody requests, and a failing pair calls for. done: the effects whose
-    stages ran. unanswered: those of them without a result, for example because they were refused.
-    """
-
-    by: frozenset[str]
-    called_for: frozenset[str]
-    at_rest: Relation
-    exact: Relation | None
-    done: frozenset[str]
-    unanswered: frozenset[str]
-
-
 def effects_of(
     planner: Planner,
     close: Iterable[tuple[Request, Finding]],
@@ -66,38 +48,40 @@ def effects_of(
     there is no sweep. units_unknown: the number of pairs without a common unit."""
     effects = [effect for effect in EFFECTS if effect != "sweep" or planner.moving]
     time: dict[str, float] = dict.fromkeys(EFFECTS, 0.0)
-    fail_on = planner.settings.fail_on
-    kinds = Counter(_kind_of(request, finding, fail_on, time) for request, finding in close)
-    unreadable = counts.asked - counts.pruned - kinds.total() - units_unknown
+    spared: dict[Effect, Counter[str | None]] = {effect: Counter() for effect in effects}
+    called_for: set[Effect] = set()  # effects that nobody requests, and a failing pair calls for
+    fail_on, examined = planner.settings.fail_on, 0
+    for request, finding in close:
+        examined += 1
+        by: set[str] = set(request.by)
+        if request.if_failing and finding.at_rest in OVERLAPS and fails(finding, fail_on):
+            called_for.update(request.if_failing)
+            by.update(request.if_failing)
+        if finding.motion is not None:
+            by.add("sweep")
+        done = _done(finding, by, time)
+        for effect in effects:
+            spared[effect][_why_not(effect, finding, by, done)] += 1
+    unreadable = counts.asked - counts.pruned - examined - units_unknown
+    before = (PRUNED, counts.pruned), (UNREADABLE, unreadable), (UNITS_UNKNOWN, units_unknown)
     reports = []
-    for effect in effects:
-        by, ran = planner.requested_by(effect), 0
-        if any(effect in kind.called_for for kind in kinds):
-            by += (FOR_FAILURES,)
-        spared = Counter({ALLOWED: counts.allowed})
-        before = (PRUNED, counts.pruned), (UNREADABLE, unreadable), (UNITS_UNKNOWN, units_unknown)
+    for effect, why_not in spared.items():
+        asked_by = planner.requested_by(effect)
+        if effect in called_for:
+            asked_by += (FOR_FAILURES,)
+        ran = why_not.pop(None, 0)
+        why_not[ALLOWED] += counts.allowed
         for reason, count in before:
-            spared[reason if by else NOT_ASKED] += count
-        for kind, count in kinds.items():
-            if (why := _why_not(effect, kind)) is None:
-                ran += count
-            else:
-                spared[why] += count
-        not_run = {reason: count for reason, count in sorted(spared.items()) if count}
-        reports.append(EffectReport(effect, by, ran, not_run, time[effect]))
+            why_not[reason if asked_by else NOT_ASKED] += count
+        not_run = {reason: count for reason, count in sorted(why_not.items()) if reason and count}
+        reports.append(EffectReport(effect, asked_by, ran, not_run, time[effect]))
     return tuple(reports)
 
 
-def _kind_of(request: Request, finding: Finding, fail_on: FailOn, time: dict[str, float]) -> _Kind:
-    """Adds the time of each stage to that of its effect."""
-    by: frozenset[str] = frozenset(request.by)
-    called_for: frozenset[str] = frozenset()
-    if request.if_failing and finding.at_rest in OVERLAPS and fails(finding, fail_on):
-        called_for = frozenset(request.if_failing)
-        by |= called_for
-    if finding.motion is not None:
-        by |= {"sweep"}
-    done: set[str] = {"overlap"}
+def _done(finding: Finding, by: Collection[str], time: dict[str, float]) -> set[str]:
+    """Return the effects whose stages ran, of those that were asked for. Add the time of each stage
+    to that of its effect."""
+    done = {"overlap"}
     for stage in finding.plan:
         effect = _PART_OF.get(stage.stage, stage.stage)
         if effect not in by:  # a step that only the overlap needed
@@ -106,25 +90,22 @@ def _kind_of(request: Request, finding: Finding, fail_on: FailOn, time: dict[str
         done.add(effect)
     if finding.depth is not None:  # also if the touch band computed it
         done.add("depth")
-    unanswered = frozenset(
-        effect for effect, answer in _ANSWERS.items() if effect in done and answer(finding) is None
-    )
-    exact = finding.exact_relation
-    return _Kind(by, called_for, finding.at_rest, exact, frozenset(done), unanswered)
+    return done
 
 
-def _why_not(effect: Effect, kind: _Kind) -> str | None:
-    """Return why an effect has no result for pairs of this kind; None: it has one."""
-    if effect in kind.unanswered:
-        return NO_ANSWER
-    if effect in kind.done:
-        return None
-    if effect not in kind.by:
+def _why_not(
+    effect: Effect, finding: Finding, by: Collection[str], done: Collection[str]
+) -> str | None:
+    """Return why an effect has no result, for example because it was refused; None: it has one."""
+    if effect in done:
+        answer = _ANSWERS.get(effect)
+        return NO_ANSWER if answer is not None and answer(finding) is None else None
+    if effect not in by:
         return NOT_ASKED
-    if kind.at_rest == "indeterminate":
+    if finding.at_rest == "indeterminate":
         return FAILED
     if effect == "distance":
-        return OVERLAP if (kind.exact or kind.at_rest) in OVERLAPS else FAR
-    if effect in ("depth", "thickness") and kind.at_rest in OVERLAPS:
-        return NO_ANSWER if "depth" in kind.done else BEYOND_BUDGET
+        return OVERLAP if (finding.exact_relation or finding.at_rest) in OVERLAPS else FAR
+    if effect in ("depth", "thickness") and finding.at_rest in OVERLAPS:
+        return NO_ANSWER if "depth" in done else BEYOND_BUDGET
     return NO_OVERLAP
