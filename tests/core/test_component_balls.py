@@ -56,7 +56,7 @@ def test_slivers_between_facets(facets: int, turn: float) -> None:
     slivers = balls(*bolt_and_hole(facets, turn=turn))
     assert len(slivers) == facets
     # Coordinates near 10 are rounded to 1e-15; a wedge with an angle of 0.07 may move by 15 times
-    # that, and both bounds allow for 6e-13 (component_balls.cpp).
+    # that, and both bounds allow for 6e-13 (component_search.cpp).
     rounding = 1e-11
     for sliver in slivers:
         assert truth - rounding <= sliver.lower <= sliver.upper <= truth + rounding

@@ -10,15 +10,15 @@
 
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
-#include "mesh/transform.hpp"
-#include "mesh/closing.hpp"
+#include "bindings/words.hpp"
+#include "mesh/boundary.hpp"
 #include "mesh/surface.hpp"
+#include "mesh/transform.hpp"
 #include "mesh/winding.hpp"
 #include "mesh_pair/boundary_contact.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/reach.hpp"
-#include "bindings/words.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

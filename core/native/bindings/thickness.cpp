@@ -13,7 +13,7 @@
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
 #include "bindings/words.hpp"
-#include "thickness/component_balls.hpp"
+#include "thickness/component_search.hpp"
 #include "thickness/face_fit.hpp"
 #include "thickness/shrunk.hpp"
 #include "thickness/thickness_proof.hpp"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/large_pages.hpp"
+#include "base/parallel.hpp"
 #include "convex/narrow_phase.hpp"
 
 namespace satcheck {
@@ -109,7 +110,15 @@ struct PairRequest {
 
 // check_pair() on request(0), ..., request(count - 1). request(i) is called once, by the thread that needs it. If some
 // throw, the exception of the first one is rethrown.
-PairResults check_pairs(std::size_t count, const std::function<PairRequest(std::size_t)>& request, Query query,
-                        MethodChoice method, unsigned threads);
+inline PairResults check_pairs(std::size_t count, const std::function<PairRequest(std::size_t)>& request, Query query,
+                               MethodChoice method, unsigned threads) {
+  PairResults results(count, query != Query::overlap);
+  // With blocks of this size the shared counter costs nothing, and they are small enough for an even load.
+  parallel_for(count, threads, [&](std::size_t i) {
+    const PairRequest r = request(i);
+    results.set(i, check_pair(*r.a, r.pose_a, *r.b, r.pose_b, query, method));
+  }, kRowsOfALine);
+  return results;
+}
 
 }  // namespace satcheck

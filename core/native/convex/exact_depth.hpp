@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "convex/exact_difference.hpp"
+#include "convex/exact_distance.hpp"
 #include "convex/shape.hpp"
 
 namespace satcheck {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "exact/point_in_triangle.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck {

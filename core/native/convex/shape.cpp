@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "base/numeric_range.hpp"
-#include "exact/point_in_triangle.hpp"
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 

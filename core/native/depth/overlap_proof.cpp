@@ -11,7 +11,7 @@
 
 #include "depth/inner_region.hpp"
 #include "exact/triangle_pair.hpp"
-#include "mesh/closing.hpp"
+#include "mesh/boundary.hpp"
 #include "mesh_pair/common_point.hpp"
 #include "mesh_pair/traversal.hpp"
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "exact/dyadic_vec.hpp"
-#include "exact/point_in_triangle.hpp"
+#include "exact/dyadic.hpp"
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 namespace {

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "base/lanes.hpp"
-#include "exact/dyadic_vec.hpp"
+#include "exact/dyadic.hpp"
 
 namespace satcheck {
 namespace {

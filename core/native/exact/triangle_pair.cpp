@@ -7,7 +7,7 @@
 
 #include <utility>
 
-#include "exact/point_in_triangle.hpp"
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 namespace {

@@ -1,14 +1,19 @@
-// The boundary of a surface, split into simple loops.
+// The boundary of a surface, split into simple loops, and how it is closed, so that every point has a winding number.
 //
 // Triangles run an edge in two directions. The surplus of one direction belongs to the boundary.
 // So the boundary includes the rims of holes, and the edges of a surplus copy of a triangle or of a triangle with
 // the wrong winding. At every vertex as many boundary edges start as end, so the boundary is a set of loops.
+//
+// Two fills of a loop give the same winding numbers, except at points between them. If fills stay within the convex hull
+// of their loop, all fills agree about inside and outside at all points outside of these hulls.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/edge_table.hpp"
 #include "base/mesh.hpp"
+#include "mesh/surface.hpp"
 
 namespace satcheck {
 
@@ -42,5 +47,17 @@ void double_triangles(Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
 // The largest first. Flat parts are holes too, unless they are doubled.
 std::vector<Hole> find_holes(const Mesh& welded);
+
+struct Closing {
+  // Closed: the triangles of the open surface first, then those that close it.
+  std::shared_ptr<const Surface> surface;
+  std::vector<Hole> holes;     // the largest first; none of sheets
+  std::vector<Surface> hulls;  // closed, one for each hole: every fill of the hole lies within it
+};
+
+Closing close_surface(const Surface& open, OpenParts parts);
+
+// The hulls of these holes of a mesh.
+std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "exact/point_in_triangle.hpp"
+#include "exact/predicates.hpp"
 #include "mesh/winding.hpp"
 
 namespace satcheck {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/patches.hpp"
+#include "exact/dyadic.hpp"
 #include "exact/exact_point.hpp"
-#include "exact/ratio.hpp"
 #include "exact/triangle_pair.hpp"
 
 namespace satcheck {

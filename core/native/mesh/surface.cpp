@@ -11,7 +11,7 @@
 #include "base/parallel.hpp"
 #include "base/patches.hpp"
 #include "exact/triangle_distance.hpp"
-#include "mesh/closing.hpp"
+#include "mesh/boundary.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/winding.hpp"
 

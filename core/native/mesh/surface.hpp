@@ -52,7 +52,7 @@ struct Surface {
   std::shared_ptr<LazyOutline> outline = std::make_shared<LazyOutline>();
 };
 
-// The closing of the open surface (mesh/closing.hpp). Made once.
+// The closing of the open surface (mesh/boundary.hpp). Made once.
 std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts);
 
 // The closed surface with the hulls of its holes as additional walls. Points that these walls do not separate from a

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "exact/point_in_triangle.hpp"
+#include "exact/predicates.hpp"
 #include "mesh/bvh.hpp"
 
 namespace satcheck {

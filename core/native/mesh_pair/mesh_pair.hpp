@@ -6,7 +6,7 @@
 // contains     b is inside the material of a without touching its surface; inside: the reverse
 // coincident   the same triangles at the same place
 //
-// What a body is: mesh_pair/pair_facts.hpp. How an open surface is read: mesh/closing.hpp.
+// What a body is: mesh_pair/pair_facts.hpp. How an open surface is read: mesh/boundary.hpp.
 #pragma once
 
 #include <cstdint>

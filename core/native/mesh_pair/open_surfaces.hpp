@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "mesh/closing.hpp"
+#include "mesh/boundary.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 
 namespace satcheck {

@@ -5,7 +5,7 @@
 
 #include "base/numeric_range.hpp"
 #include "base/rounding.hpp"
-#include "mesh/closing.hpp"
+#include "mesh/boundary.hpp"
 #include "motion/balls.hpp"
 
 namespace satcheck {

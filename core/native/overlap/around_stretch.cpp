@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "exact/point_in_triangle.hpp"
+#include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/surface.hpp"
 

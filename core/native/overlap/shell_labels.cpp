@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "exact/ratio.hpp"
+#include "exact/dyadic.hpp"
 #include "mesh/winding.hpp"
 
 namespace satcheck {

@@ -1,4 +1,5 @@
-// The thickness of an overlap from its components: slivers between facets, one by one.
+// The thickness of an overlap from its components: slivers between facets, one by one. The largest ball in the hull of
+// each bounds it without a search.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,18 @@
 #include "thickness/thickness_search.hpp"
 
 namespace satcheck {
+
+// The hull of more points is no sliver, and is not looked at.
+inline constexpr std::size_t kMostHullPoints = 5000;
+
+// Of each component. upper: the diameter of the largest ball in its convex hull, which is its thickness where it is
+// convex, as slivers between facets are; of components with many corners, that in their box. centre: of that ball; lower: how thick the overlap of the solids is around it,
+// and 0 where it does not lie in both, or may belong to another component.
+std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& b, const OverlapComponents& overlap);
+
+// A close box around a component, which holds it, rounding included. The first axis is across the thinnest slab that holds
+// it, so that a sliver between two facets has a box as flat as itself.
+BoxAlong box_around(const OverlapComponent& component);
 
 class ComponentSearch {
  public:

@@ -9,7 +9,6 @@
 
 #include "base/edge_table.hpp"
 #include "base/patches.hpp"
-#include "exact/point_in_triangle.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck {

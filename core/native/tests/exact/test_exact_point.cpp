@@ -3,7 +3,6 @@
 
 #include <random>
 
-#include "exact/point_in_triangle.hpp"
 #include "exact/predicates.hpp"
 #include "tests/check.hpp"
 

@@ -1,7 +1,6 @@
 // Loops of the boundary, and the holes and flat parts that they make.
 #include "mesh/boundary.hpp"
 
-#include "mesh/closing.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/topology.hpp"
 #include "tests/check.hpp"
