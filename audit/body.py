@@ -199,8 +199,7 @@ def _posed(body: Body, geometry: core.Geometry) -> core.PosedBody:
     shape = body.shape
     if not is_curved(shape):
         return core.PosedBody(geometry)
-    from satcheck.core.shape_bounds import shape_bounds
-    from satcheck.core.shape_mesh import meshes_beside
+    from satcheck.core.shape_mesh import meshes_beside, shape_bounds
 
     around, within = (core.Geometry(mesh, True) for mesh in meshes_beside(shape, _SEGMENTS))
     return core.PosedBody(*shape_bounds(shape), around, within)

@@ -48,7 +48,7 @@ from satcheck.scene.files.readers import stated_options
 
 if TYPE_CHECKING:
     from satcheck.audit.motion.movers import Movers
-    from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import VolumeMeter
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
     from satcheck.report.statics import Statics
@@ -307,7 +307,7 @@ def _examined_together(
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:
-    from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import VolumeMeter
 
     return VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)
 

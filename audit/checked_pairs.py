@@ -37,7 +37,7 @@ from satcheck.audit.stages.relation import (
     leaves_work,
     start_climbs,
 )
-from satcheck.core.risky_steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
+from satcheck.core.steps import LeftOut, is_careful, not_for_lack_of_memory, risky_step
 from satcheck.report.report import INTERNAL_ERROR, OVERLAPS, Finding, Issue
 from satcheck.report.verdict import fails
 

@@ -22,7 +22,7 @@ from satcheck.audit.parallel import in_parallel
 from satcheck.audit.planner import FOR_FAILURES
 from satcheck.audit.settings import THICKNESS_SHARE, Settings
 from satcheck.audit.stages.thickness import why_not_thick
-from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
+from satcheck.core.steps import LeftOut, is_careful, risky_step
 from satcheck.report.report import Finding, Issue
 
 # A pair may use this share of the budget, even if that leaves nothing for the last pairs.

@@ -16,8 +16,7 @@ from satcheck.core.steps import step_in_words
 from satcheck.report.request import Request
 
 if TYPE_CHECKING:
-    from satcheck.core.overlap_volume import VolumeMeter
-    from satcheck.core.peers import Peers
+    from satcheck.core.peers import Peers, VolumeMeter
     from satcheck.report.sweep import Sweep
 
 

@@ -20,7 +20,7 @@ from satcheck.audit.body import PlacedBody, world_bounds
 from satcheck.audit.finding import deep_overlap, open_by_fill
 from satcheck.audit.pair import Pair
 from satcheck.core.conventions import Vector
-from satcheck.core.risky_steps import is_careful
+from satcheck.core.steps import is_careful
 from satcheck.report.judge import Judgement, by_rule
 from satcheck.report.report import SEVERITIES, Finding
 from satcheck.scene.bodies import IDENTITY
@@ -28,7 +28,7 @@ from satcheck.scene.half_spaces import holds, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.audit.settings import Settings
-    from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import VolumeMeter
     from satcheck.scene import Body, Scene
 
 # How the core sorts a pair.

@@ -26,7 +26,7 @@ from satcheck.audit.statics.answers import rule_report
 from satcheck.audit.statics.subjects import contact_tolerance
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.core.risky_steps import not_for_lack_of_memory
+from satcheck.core.steps import not_for_lack_of_memory
 from satcheck.report.certificate import OnBody
 from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.verdict import severity_of_answer

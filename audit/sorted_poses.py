@@ -24,7 +24,7 @@ from satcheck.scene.robot.postures import PoseBatch
 if TYPE_CHECKING:
     from satcheck.audit.pair import Pair
     from satcheck.audit.posed_pairs import Codes, Numbers
-    from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import VolumeMeter
 
 # Pairs that climb the ladder together.
 TOGETHER = 512

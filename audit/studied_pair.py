@@ -14,7 +14,7 @@ from satcheck.scene import Body, Scene
 
 if TYPE_CHECKING:
     from satcheck.audit.body import PlacedBody
-    from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import VolumeMeter
 
 Bodies = tuple[Body, Body]
 MOST_NAMED = 12  # bodies in a message

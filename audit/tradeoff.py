@@ -25,7 +25,7 @@ from satcheck.audit.stages.volume import measure_volume
 from satcheck.audit.studied_pair import Bodies, pair_of
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
-from satcheck.core.overlap_volume import VolumeMeter
+from satcheck.core.peers import VolumeMeter
 from satcheck.core.rounding import rounding_pad
 from satcheck.decompose.result import Decomposition
 from satcheck.report.report import OVERLAPS, Finding

@@ -1,4 +1,7 @@
-"""Meshes of shapes: an inscribed one with its vertices on the surface, and an enclosing one."""
+"""Meshes of shapes: an inscribed one with its vertices on the surface, and an enclosing one.
+
+Also a simpler body around a curved shape, in the frame of the shape.
+"""
 
 from __future__ import annotations
 
@@ -18,6 +21,7 @@ from satcheck.core.shapes import (
     HalfSpace,
     Primitive,
     Sphere,
+    half_sizes,
     support,
 )
 
@@ -26,6 +30,8 @@ DEFAULT_SEGMENTS = 64
 _ROUNDED_UP = 1 + 2.0**-40
 # Factors far beyond any rounding.
 _LARGER, _SMALLER = 1 + 1e-9, 1 - 1e-9
+# Sides of the prism around a cylinder.
+_SIDES = 16
 
 
 def mesh_of(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
@@ -130,3 +136,29 @@ def _circle(segments: int) -> list[tuple[float, float]]:
     first = [(1.0, 0.0), *((math.cos(angle), math.sin(angle)) for angle in steps)]
     second = [(-y, x) for x, y in first]
     return [*first, *second, *((-x, -y) for x, y in first), *((-x, -y) for x, y in second)]
+
+
+def shape_bounds(shape: Primitive) -> tuple[list[Vector], float]:
+    """(corners, margin): the shape lies in the hull of the corners, grown by the margin."""
+    a, b, c = half_sizes(shape)
+    match shape:
+        case Sphere():
+            return [(0.0, 0.0, 0.0)], a * _LARGER
+        case Capsule():
+            return [(0.0, 0.0, -c * _LARGER), (0.0, 0.0, c * _LARGER)], a * _LARGER
+        case Cylinder() | Cone():
+            return _prism(a, c), 0.0
+        case _:
+            x, y, z = a * _LARGER, b * _LARGER, c * _LARGER
+            return [(u, v, w) for u in (-x, x) for v in (-y, y) for w in (-z, z)], 0.0
+
+
+def _prism(radius: float, half: float) -> list[Vector]:
+    """The corners of a prism around a cylinder about z."""
+    wide = radius / math.cos(math.pi / _SIDES) * _LARGER
+    angles = [2 * math.pi * k / _SIDES for k in range(_SIDES)]
+    return [
+        (wide * math.cos(angle), wide * math.sin(angle), end)
+        for angle in angles
+        for end in (-half * _LARGER, half * _LARGER)
+    ]

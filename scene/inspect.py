@@ -29,9 +29,9 @@ from satcheck.core import (
 from satcheck.core.conventions import LARGEST_LENGTH, SMALLEST_SIZE
 from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_health import MeshHealth
-from satcheck.core.risky_steps import not_for_lack_of_memory
 from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
 from satcheck.core.shapes import Primitive, sizes_of, values_of
+from satcheck.core.steps import not_for_lack_of_memory
 from satcheck.scene.bodies import FLOAT64_STEP, MeshFile
 from satcheck.scene.document import NumberFormat, RawMesh
 from satcheck.scene.errors import Refused

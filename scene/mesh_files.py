@@ -17,7 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.plugins import function_at
-from satcheck.core.risky_steps import LeftOut, is_careful, risky_step
+from satcheck.core.steps import LeftOut, is_careful, risky_step
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.document import COMPONENT_MARK, HULL_MARK, Document, FilePart, Item
 from satcheck.scene.errors import Refused

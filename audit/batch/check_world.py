@@ -17,8 +17,7 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.stated_places import with_stated_places
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
-from satcheck.core.risky_steps import Loss, not_for_lack_of_memory
-from satcheck.core.steps import step
+from satcheck.core.steps import Loss, not_for_lack_of_memory, step
 from satcheck.report.assets import Asset, asset
 from satcheck.report.report import INTERNAL_ERROR, RELATIONS, Issue, PairCounts, Report, Summary
 from satcheck.scene import Refused, Scene

@@ -21,7 +21,7 @@ from satcheck.audit.batch.remote import is_url
 from satcheck.audit.batch.slot import lost
 from satcheck.audit.batch.slot_server import Answer
 from satcheck.core.errors import SatcheckError
-from satcheck.core.risky_steps import Loss
+from satcheck.core.steps import Loss
 
 # A task costs about 7 ms of processor time: 1.5 of the client, 2.3 of the scheduler, 2.7 of the
 # worker (bench/dask_cost.py). Tasks of a second keep that far below a twentieth of the work. There

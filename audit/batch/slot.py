@@ -27,7 +27,7 @@ from satcheck.audit.batch.slot_server import (
     result_of,
     text_of,
 )
-from satcheck.core.risky_steps import Loss
+from satcheck.core.steps import Loss
 from satcheck.core.worker import Worker
 from satcheck.core.worker_errors import (
     WorkerCrashed,

@@ -22,7 +22,7 @@ from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.audit.batch.remote import Copies, make_room
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
-from satcheck.core.risky_steps import Care, Loss, careful, end_at_memory_error
+from satcheck.core.steps import Care, Loss, careful, end_at_memory_error
 from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result
 from satcheck.report.json import line_of, read_line
 from satcheck.report.report import Issue

@@ -23,7 +23,7 @@ from satcheck.audit.statics.margins import with_margins
 from satcheck.audit.statics.subjects import subject_of, terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of
 from satcheck.core.errors import SatcheckError
-from satcheck.core.risky_steps import not_for_lack_of_memory
+from satcheck.core.steps import not_for_lack_of_memory
 from satcheck.report.report import (
     GRAVITY_ASSUMED,
     SUPPORT_OPEN,

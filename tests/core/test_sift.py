@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.core.shape_bounds import shape_bounds
-from satcheck.core.shape_mesh import meshes_beside
+from satcheck.core.shape_mesh import meshes_beside, shape_bounds
 from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, Primitive, Sphere, support
 from satcheck.core.transform import Transform, about_fixed_axes, placed
 

@@ -23,7 +23,7 @@ from satcheck.audit.stages.certificate.maker import (
     or_unset,
 )
 from satcheck.audit.stages.exact_hulls import Expanded, expanded, nearest_point, shortened
-from satcheck.core.risky_steps import not_for_lack_of_memory
+from satcheck.core.steps import not_for_lack_of_memory
 from satcheck.report.certificate import (
     AxisProof,
     Band,

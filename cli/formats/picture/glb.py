@@ -14,7 +14,7 @@ from satcheck.cli.formats.picture.moments import moments_of
 from satcheck.cli.formats.picture.shown import marks_of
 from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
-from satcheck.core.overlap_volume import VolumeMeter
+from satcheck.core.peers import VolumeMeter
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.written_meshes import Material, Node, glb
 

@@ -11,7 +11,7 @@ from satcheck.audit.batch.check_world import lost_asset
 from satcheck.audit.batch.results import ResultsFile
 from satcheck.audit.batch.stored import Stored, StoredResults, least_of
 from satcheck.core.errors import SatcheckError
-from satcheck.core.risky_steps import Loss
+from satcheck.core.steps import Loss
 from satcheck.report.assets import AssetVerdict, Result
 from satcheck.report.json import line_of
 from tests.cli.reports import PENETRATING, report

@@ -16,8 +16,7 @@ from satcheck.audit.stages.cross_check import DISAGREEMENT, ask_peers
 from satcheck.audit.stages.relation import settle
 from satcheck.cli.formats.summary import summary_line
 from satcheck.core import Mesh
-from satcheck.core.overlap_volume import OverlapVolume
-from satcheck.core.peers import Peers
+from satcheck.core.peers import OverlapVolume, Peers
 from satcheck.scene import Scene, load_scene
 from tests.audit.shapes import write
 from tests.core.test_mesh_relation import CELL, CUBE, L_SHAPE, SMALL, moved

@@ -13,7 +13,7 @@ import pytest
 
 from satcheck.core import Mesh, inspect
 from satcheck.core.errors import SatcheckError
-from satcheck.core.overlap_volume import VolumeMeter
+from satcheck.core.peers import VolumeMeter
 from tests.core.test_mesh_relation import CELL, CUBE, HOLLOW, random_pair
 from tests.core.voxel_solids import IDENTITY, SHEAR, Cell, VoxelSolid, mesh_of_soup
 from tests.oracles.tetrahedra import common_volume
