@@ -15,7 +15,6 @@ from satcheck.audit.bodies import BodyCache, PlacedBodies, place
 from satcheck.audit.checked_pairs import CheckedPair, Progress, StepsOfScene, examine_pairs
 from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
-from satcheck.audit.effects import effects_of
 from satcheck.audit.figures import with_figures
 from satcheck.audit.finding import examine_boxes
 from satcheck.audit.messages import with_messages
@@ -26,6 +25,7 @@ from satcheck.audit.summary import (
     body_reports,
     count,
     doubtful_sizes,
+    effects_of,
     issues_of,
     stopped_early,
     tool,

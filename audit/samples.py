@@ -4,34 +4,50 @@ The core first sorts the pairs of all poses (`posed_pairs.py`). A pair that is p
 nothing else. A deep overlap counts without figures, and a pair that the fill of a hole decides
 counts as undecided, unless the report lists its pose. All other pairs climb the ladder as in a
 check of one pose.
+
+Findings are made only for pairs that the core leaves open, for poses that the report lists, and for
+the first pose of a batch in which a pair is undecided. A pair climbs the ladder only if the sort
+does not say all that its finding has.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import ExitStack
 from itertools import chain
+from typing import TYPE_CHECKING
 
+import numpy as np
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from satcheck.audit.bodies import place
 from satcheck.audit.check import DEFAULT_SETTINGS, volume_meter
+from satcheck.audit.checked_pairs import examine_pairs
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
-from satcheck.audit.posed_pairs import PosedPairs, same_way
-from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults
+from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs, same_way
+from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults, is_plain
 from satcheck.audit.settings import Settings
-from satcheck.audit.sorted_poses import sorted_and_counted
 from satcheck.audit.summary import size_of
+from satcheck.report.report import Finding, Issue, Verdict
 from satcheck.report.samples import SamplesReport
+from satcheck.report.verdict import fails
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose
 from satcheck.scene.robot.postures import PoseBatch, pose_batches
+
+if TYPE_CHECKING:
+    from satcheck.audit.posed_pairs import Codes, Numbers
+    from satcheck.core.peers import VolumeMeter
 
 Progress = Callable[[int, int], None]
 
 # Poses that the core sorts together. The placements of two batches are in memory at a time.
 BATCH = 2048
+# Pairs that climb the ladder together.
+TOGETHER = 512
 
 
 def check_poses(
@@ -92,3 +108,148 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     # A tolerance of the size of a body gets a warning, from the check of its pose.
     small = all((p.request.tolerance or 0.0) < min(sizes[p.a.id], sizes[p.b.id]) for p in pairs)
     return PosedPairs(list(bodies.placed.values()), pairs) if pairs and small else None
+
+
+def sorted_and_counted(
+    results: SampleResults,
+    batches: Iterator[PoseBatch],
+    pairs: PosedPairs,
+    meter: VolumeMeter | None,
+) -> Iterator[PoseBatch]:
+    """While one batch is counted, the core sorts the pairs of the next one in a second thread. With
+    one job it does not."""
+    waiting: _SortedBatch | None = None
+    with ThreadPoolExecutor(1) as beside:
+        for batch in batches:
+            matrices = batch.matrices
+            sorting = beside.submit(pairs.sift, matrices)
+            if results.settings.jobs == 1:
+                wait([sorting])
+            if waiting is not None:
+                yield waiting.count()
+            waiting = _SortedBatch(results, batch, matrices, sorting, pairs, meter)
+        if waiting is not None:
+            yield waiting.count()
+
+
+class _SortedBatch:
+    """Poses whose pairs the core has sorted. found: the findings of each pose so far, by the
+    numbers of the pairs. alone: poses that need a check of their own."""
+
+    def __init__(
+        self,
+        results: SampleResults,
+        batch: PoseBatch,
+        matrices: Numbers,
+        sorting: Future[Codes],
+        pairs: PosedPairs,
+        meter: VolumeMeter | None,
+    ) -> None:
+        self._results, self._batch = results, batch
+        self._matrices, self._sorting = matrices, sorting
+        self._pairs, self._meter = pairs, meter
+        self._found: dict[int, dict[int, Finding]] = {}
+        self._alone: set[int] = set()
+
+    def count(self) -> PoseBatch:
+        self._sorted = self._sorting.result()
+        self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
+        self._find((self._sorted == OPEN) | _first_undecided(self._sorted))
+        listed = self._listed()
+        self._find(self._noted & listed[:, None])
+        verdicts = self._verdicts()
+        listed[list(self._alone)] = True
+        for row in np.flatnonzero(listed).tolist():
+            if row in self._alone:
+                self._results.add(self._batch, row)
+            else:
+                found, posture = self._findings(row), self._batch.posture(row)
+                issues = (
+                    Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues
+                )
+                self._results.listed.append(
+                    self._results.sample(self._batch, row, verdicts[row], found, issues)
+                )
+        return self._batch
+
+    def _listed(self) -> NDArray[np.bool_]:
+        """Whether each pose is listed."""
+        if self._results.lists_all:
+            return np.ones(self._batch.count, bool)
+        noted = self._noted.any(axis=1)
+        noted[[*self._alone, *(row for row in self._found if self._findings(row))]] = True
+        listed = np.zeros(self._batch.count, bool)
+        listed[np.flatnonzero(noted)[: self._results.room]] = True
+        return listed
+
+    def _find(self, asked: NDArray[np.bool_]) -> None:
+        """Makes the findings of these pairs, of shape (poses, pairs)."""
+        climbing: list[tuple[int, int, Pair]] = []
+        for row in np.flatnonzero(asked.any(axis=1)).tolist():
+            found = self._found.setdefault(row, {})
+            numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in found]
+            try:
+                pairs = self._pairs.at(self._matrices, row, numbers, self._meter)
+            except (ValueError, OverflowError):  # the check of this pose says what is wrong
+                self._alone.add(row)
+                continue
+            for number, pair in zip(numbers, pairs, strict=True):
+                code = int(self._sorted[row, number])
+                finding = self._pairs.proven(self._matrices, row, number, code, pair)
+                if finding is None:
+                    climbing.append((row, number, pair))
+                else:
+                    found[number] = finding
+            if len(climbing) >= TOGETHER:
+                self._climb(climbing)
+                climbing = []
+        self._climb(climbing)
+
+    def _climb(self, climbing: Sequence[tuple[int, int, Pair]]) -> None:
+        pairs = [pair for *_, pair in climbing]
+        checked = examine_pairs(pairs, self._results.settings.jobs)
+        for (row, number, _), pair in zip(climbing, checked, strict=True):
+            self._found[row][number] = pair.finding
+            self._results.issues |= dict.fromkeys(pair.issues)
+
+    def _findings(self, row: int) -> tuple[Finding, ...]:
+        found = sorted(self._found.get(row, {}).items())
+        return tuple(finding for _, finding in found if not is_plain(finding))
+
+    def _verdicts(self) -> dict[int, Verdict]:
+        """Return the verdict on each pose that needs no check of its own, all of them counted: by
+        their findings, and by the sort for pairs without one."""
+        codes, results = self._sorted.copy(), self._results
+        codes[list(self._alone)] = APART
+        for row, found in self._found.items():
+            codes[row, list(found)] = APART
+        failed = ((codes == DEEP) & self._pairs.deep_fails).any(axis=1).tolist()
+        undecided = (codes == UNDECIDED).any(axis=1).tolist()
+        for row in sorted(self._found.keys() - self._alone):
+            for finding in self._findings(row):
+                results.count(finding, self._batch.first + row)
+                failed[row] |= fails(finding, results.settings.fail_on)
+                undecided[row] |= finding.undecided is not None
+        for k in np.flatnonzero(((codes == DEEP) | (codes == UNDECIDED)).any(axis=0)).tolist():
+            of, deep = self._pairs.pairs[k], np.flatnonzero(codes[:, k] == DEEP)
+            pair = results.tally(of.a.id, of.b.id)
+            if deep.size:
+                first, fails_by = self._batch.first + int(deep[0]), bool(self._pairs.deep_fails[k])
+                pair.count_overlaps(len(deep), first, fails=fails_by)
+            pair.undecided += int((codes[:, k] == UNDECIDED).sum())
+        verdicts: dict[int, Verdict] = {
+            row: "fail" if failed[row] else "incomplete" if undecided[row] else "pass"
+            for row in range(self._batch.count)
+            if row not in self._alone
+        }
+        results.by_verdict.update(verdicts.values())
+        return verdicts
+
+
+def _first_undecided(codes: Codes) -> NDArray[np.bool_]:
+    """Whether a pair is undecided in a pose for the first time. Its finding gives the reason."""
+    undecided: NDArray[np.bool_] = codes == UNDECIDED
+    pairs = np.flatnonzero(undecided.any(axis=0))
+    first = np.zeros_like(undecided)
+    first[undecided[:, pairs].argmax(axis=0), pairs] = True
+    return first

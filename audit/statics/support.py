@@ -16,12 +16,11 @@ from satcheck.audit.statics.answers import (
     vector,
 )
 from satcheck.audit.statics.equilibrium import require_solver
-from satcheck.audit.statics.flush_edges import without_flush_edges
 from satcheck.audit.statics.graph import graph_of
 from satcheck.audit.statics.islands import Outcome, left_open, outcome_of
 from satcheck.audit.statics.margins import with_margins
 from satcheck.audit.statics.subjects import subject_of, terms_for
-from satcheck.audit.statics.touching import Contact, contacts_of
+from satcheck.audit.statics.touching import Contact, contacts_of, without_flush_edges
 from satcheck.core.errors import SatcheckError
 from satcheck.core.steps import not_for_lack_of_memory
 from satcheck.report.report import (

@@ -10,7 +10,7 @@ import pytest
 
 from satcheck.audit import Settings
 from satcheck.audit.bodies import place
-from satcheck.audit.resolve.free_place import AXES, extents, free_place
+from satcheck.audit.resolve.pushing import AXES, extents, free_place
 from tests.audit.resolve.boxes import boxes_scene, unit_at
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from satcheck import core
-from satcheck.audit.stages.rungs import rungs_of
+from satcheck.audit.stages.relation import rungs_of
 
 CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 FACES = np.array(
