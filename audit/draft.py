@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from satcheck import core
     from satcheck.core.curved.signed import Signed
     from satcheck.report.baseline import UndecidedBy
-    from satcheck.report.components import Components
-    from satcheck.report.contacts import Contacts
+    from satcheck.report.contacts import Components, Contacts
 
 NANOSECONDS_PER_MICROSECOND = 1000.0
 Side = Literal["open", "within", "deeper", "hidden"]

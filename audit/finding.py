@@ -22,8 +22,7 @@ from satcheck.audit.stages.relation import apart_by_boxes, open_hole, settle, wh
 from satcheck.audit.stages.thickness import measure_thickness, thickness_ahead, why_not_thick
 from satcheck.audit.stages.touch_band import band_of, touch_band
 from satcheck.audit.stages.volume import measure_volume
-from satcheck.report.components import Components
-from satcheck.report.contacts import Contacts
+from satcheck.report.contacts import Components, Contacts
 from satcheck.report.judge import (
     Judgement,
     by_rule,

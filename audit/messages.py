@@ -30,9 +30,9 @@ from satcheck.audit.words import (
     with_unit,
     worst_first,
 )
-from satcheck.report.motions import JointPath
 from satcheck.report.report import BEYOND_BUDGET, INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
 from satcheck.report.request import OPTIONS_OF_LIMITS
+from satcheck.report.sweep import JointPath
 from satcheck.report.verdict import is_failure, is_unmet, severity, unlisted_indeterminate
 from satcheck.scene.units import unit_of
 

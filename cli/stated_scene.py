@@ -10,9 +10,9 @@ from msgspec import to_builtins
 
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import AssetsReport
-from satcheck.report.motions import JointPath
 from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SampledBody, SamplesReport
+from satcheck.report.sweep import JointPath
 from satcheck.scene import Body, MeshFiles, Refused, Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import FilePart
@@ -24,7 +24,7 @@ from satcheck.scene.planar.outline import shape_from
 
 if TYPE_CHECKING:
     from satcheck.report.bodies import BodyReport
-    from satcheck.report.motions import StatedMotion
+    from satcheck.report.sweep import StatedMotion
 
 CHANGED, GONE = "changed-file", "not-drawn"
 

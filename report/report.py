@@ -20,13 +20,11 @@ from satcheck.report.baseline import BaselineState, StatedBaseline, UndecidedBy
 from satcheck.report.bodies import BodyReport as BodyReport
 from satcheck.report.bodies import PartError as PartError
 from satcheck.report.certificate import Certificate
-from satcheck.report.components import Components
-from satcheck.report.contacts import Contacts
-from satcheck.report.motions import StatedMotion
+from satcheck.report.contacts import Components, Contacts
 from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.settings import StatedConfig, StatedReading, StatedSettings
 from satcheck.report.statics import Statics, SupportFinding
-from satcheck.report.sweep import Sweep
+from satcheck.report.sweep import StatedMotion, Sweep
 from satcheck.report.values import Code, Count, Interval, Length, Value
 from satcheck.report.values import Quality as Quality
 from satcheck.report.values import Relation as Relation

@@ -1,17 +1,21 @@
-"""The result of a sweep of two moving bodies: plain data.
+"""The motions of bodies in a report, and the result of a sweep of two moving bodies: plain data.
 
-t runs from 0 to 1; lengths are in the units of the files.
+t runs from 0 to 1; lengths are in the units of the files. clear: the way must be free, of touches
+too.
 """
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
+
+from msgspec import Meta
 
 from satcheck.report.values import Count, Interval, Length, Share, Value, Vector
 
 # The value of a joint is a number, or a list of numbers.
 Joints = dict[str, float | list[float]]
 SweptRelation = Literal["separated", "near", "touching", "penetrating", "indeterminate"]
+Bodies = Annotated[tuple[str, ...], Meta(min_length=1)]
 
 
 class Place(Value, frozen=True):
@@ -68,3 +72,57 @@ class Sweep(Value, frozen=True, kw_only=True):
     steps: Count = 0
     proven: bool = True
     reason: str | None = None
+
+
+class Translation(Value, frozen=True, tag_field="kind", tag="translation"):
+    """Bodies that move by t * vector."""
+
+    bodies: Bodies
+    clear: bool
+    vector: Vector
+
+
+class Rotation(Value, frozen=True, tag_field="kind", tag="rotation"):
+    """Bodies that rotate by t * degrees about an axis through a point."""
+
+    bodies: Bodies
+    clear: bool
+    point: Vector
+    axis: Vector
+    degrees: float
+
+
+class Waypoint(Value, frozen=True):
+    """A rigid pose. orientation: quaternion x, y, z, w."""
+
+    time: Share
+    position: Vector
+    orientation: tuple[float, float, float, float]
+
+
+class PosePath(Value, frozen=True, tag_field="kind", tag="path"):
+    """Bodies that pass rigid poses at given times. In between, positions follow lines and rotations
+    shortest arcs."""
+
+    bodies: Bodies
+    clear: bool
+    waypoints: Annotated[tuple[Waypoint, ...], Meta(min_length=2)]
+
+
+class JointWaypoint(Value, frozen=True):
+    """A pose of robots. joints: the value of each joint that moves or stands."""
+
+    time: Share
+    joints: dict[str, float | list[float]]
+
+
+class JointPath(Value, frozen=True, tag_field="kind", tag="joints"):
+    """Bodies of robots whose joints pass poses at given times. In between, each joint moves
+    steadily."""
+
+    bodies: Bodies
+    clear: bool
+    waypoints: Annotated[tuple[JointWaypoint, ...], Meta(min_length=2)]
+
+
+StatedMotion = Translation | Rotation | PosePath | JointPath

@@ -26,9 +26,8 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.vectors import added
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, compose
-from satcheck.report.motions import JointPath as StatedPath
-from satcheck.report.motions import JointWaypoint, StatedMotion
-from satcheck.report.sweep import Place
+from satcheck.report.sweep import JointPath as StatedPath
+from satcheck.report.sweep import JointWaypoint, Place, StatedMotion
 from satcheck.scene import Scene
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot import Joint, JointPath

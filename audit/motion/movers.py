@@ -18,8 +18,8 @@ from satcheck.audit.pair import Moves, Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import ball_around
 from satcheck.core.errors import SatcheckError
-from satcheck.report.motions import StatedMotion
 from satcheck.report.report import Issue
+from satcheck.report.sweep import StatedMotion
 from satcheck.scene import Scene
 
 if TYPE_CHECKING:

@@ -14,8 +14,7 @@ from satcheck.audit.body import Box, PlacedBody, around_both, corners
 from satcheck.audit.motion.moving_pair import Posed, rounding_of
 from satcheck.audit.motion.track import STANDS, Track, track_of
 from satcheck.audit.pair import Pair
-from satcheck.report.motions import StatedMotion
-from satcheck.report.sweep import Place
+from satcheck.report.sweep import Place, StatedMotion
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.motion import Motion, Path, PosePath, Rotation, Translation
 

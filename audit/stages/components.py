@@ -11,7 +11,7 @@ from satcheck.audit.draft import Draft
 from satcheck.audit.pair import Pair
 from satcheck.audit.stages.contacts import MAX_TRIANGLE_PAIRS
 from satcheck.core.conventions import SMALLEST_SIZE
-from satcheck.report.components import Component, Components, Passing
+from satcheck.report.contacts import Component, Components, Passing
 from satcheck.report.report import OVERLAPS, Vector
 
 STAGE = "components"

@@ -23,7 +23,7 @@ from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
-    from satcheck.report.components import Component
+    from satcheck.report.contacts import Component
     from satcheck.report.regions import InsideFinding, Regions
     from satcheck.report.report import BodyReport, EffectReport, Finding, Report
     from satcheck.report.statics import BodyIsland, Statics, SupportedBody, SupportFinding

@@ -11,8 +11,7 @@ from msgspec.structs import replace
 from satcheck.cli.formats.table import render
 from satcheck.cli.formats.tables import ROWS, broken
 from satcheck.cli.output import PLAIN_PAGE, Page
-from satcheck.report.components import Component, Components
-from satcheck.report.contacts import Contacts
+from satcheck.report.contacts import Component, Components, Contacts
 from satcheck.report.report import (
     Finding,
     RuleReport,

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from msgspec import to_builtins
 
-from satcheck.report.components import Component, Components
+from satcheck.report.contacts import Component, Components
 from satcheck.verify import Rejected, VerificationReport
 from satcheck.verify.coverage import COVERAGE
 from tests.verify.honest import HONEST, honest

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from satcheck.cli.formats.picture.geometry import Parts
     from satcheck.cli.formats.picture.shown import Shown
     from satcheck.cli.formats.picture.viewpoint import Viewpoint
-    from satcheck.report.components import Component
+    from satcheck.report.contacts import Component
     from satcheck.report.report import Finding, Issue, Report
     from satcheck.scene import Scene
 

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit import Settings, check
 from satcheck.core.errors import SatcheckError
-from satcheck.report.components import Components
+from satcheck.report.contacts import Components
 from tests.audit.shapes import box, bracket, moved, open_box, scene_of, unit_box
 
 ASKED = Settings(components=True, depth=False)
