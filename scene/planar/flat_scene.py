@@ -19,11 +19,11 @@ from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable, is_half_spa
 from satcheck.scene.errors import Refused
 from satcheck.scene.inspect import examine
 from satcheck.scene.issue import issue
-from satcheck.scene.planar.fills import covers
 from satcheck.scene.planar.region import (
     Region,
     convex_corners,
     convex_region,
+    covers,
     fan_of,
     prism,
     region_of,

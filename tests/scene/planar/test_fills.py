@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.scene.planar.fills import covers
-from satcheck.scene.planar.region import Region
+from satcheck.scene.planar.region import Region, covers
 from tests.audit.shapes import Mesh, open_box, scene_of, unit_box
 
 SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
