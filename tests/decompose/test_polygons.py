@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from satcheck.decompose.polygons import Plane, Polygon, halves, heights, without
+from satcheck.decompose.error_bounds import Plane, Polygon, halves, heights, without
 
 SQUARE: Polygon = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]
 
