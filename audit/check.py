@@ -47,7 +47,7 @@ from satcheck.scene import Scene
 from satcheck.scene.files.readers import stated_options
 
 if TYPE_CHECKING:
-    from satcheck.audit.motion.movers import Movers
+    from satcheck.audit.motion.sweep import Movers
     from satcheck.core.peers import VolumeMeter
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
@@ -195,7 +195,7 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
 def _movers(scene: Scene, bodies: PlacedBodies, planner: Planner) -> Movers | None:
     if scene.joint_path is None and not scene.motions:
         return None
-    from satcheck.audit.motion.movers import Movers
+    from satcheck.audit.motion.sweep import Movers
 
     return Movers(scene, bodies, planner)
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from satcheck.audit.statics.graph import Graph
-from satcheck.audit.statics.islands import Outcome
+from satcheck.audit.statics.islands import Graph, Outcome
 from satcheck.audit.statics.margins import MOST_OF_STEP
 from satcheck.report.regions import InsideFinding
 from satcheck.report.report import Issue

@@ -16,8 +16,7 @@ from satcheck.audit.statics.answers import (
     vector,
 )
 from satcheck.audit.statics.equilibrium import require_solver
-from satcheck.audit.statics.graph import graph_of
-from satcheck.audit.statics.islands import Outcome, left_open, outcome_of
+from satcheck.audit.statics.islands import Outcome, graph_of, left_open, outcome_of
 from satcheck.audit.statics.margins import with_margins
 from satcheck.audit.statics.subjects import subject_of, terms_for
 from satcheck.audit.statics.touching import Contact, contacts_of, without_flush_edges

@@ -26,7 +26,7 @@ IMPORTED = (
     ),
     *(f"satcheck.cli.{name}" for name in ("config", "entry", "formats.table", "interrupts")),
     *(f"satcheck.scene.{name}" for name in ("files.native_formats", "robot", "scene_file.reading")),
-    *("satcheck.audit.batch.local", "satcheck.audit.batch.stored", "satcheck.audit.motion.movers"),
+    *("satcheck.audit.batch.local", "satcheck.audit.batch.stored", "satcheck.audit.motion.sweep"),
     *("satcheck.audit.resolve.resolve", "satcheck.verify.document"),
 )
 CONTEXT = multiprocessing.get_context("forkserver")
