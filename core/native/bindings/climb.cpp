@@ -19,8 +19,7 @@
 #include <utility>
 
 #include "bindings/interrupts.hpp"
-#include "bindings/tuples.hpp"
-#include "bindings/words.hpp"
+#include "bindings/values.hpp"
 #include "ladder/broad_phase.hpp"
 #include "ladder/climb.hpp"
 #include "ladder/touch_proof.hpp"
@@ -237,7 +236,6 @@ class Climbing {
   std::vector<nb::tuple> pairs_;  // keeps the bodies, whatever the caller does with the list
   std::future<std::vector<std::optional<Climb>>> results_;
 };
-
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 

@@ -12,8 +12,7 @@
 #include <utility>
 
 #include "bindings/interrupts.hpp"
-#include "bindings/tuples.hpp"
-#include "bindings/words.hpp"
+#include "bindings/values.hpp"
 #include "convex/convex_hull.hpp"
 #include "depth/depth_search.hpp"
 #include "depth/inner_region.hpp"

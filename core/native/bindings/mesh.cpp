@@ -18,7 +18,7 @@
 #include "base/parallel.hpp"
 #include "bindings/arguments.hpp"
 #include "bindings/interrupts.hpp"
-#include "bindings/tuples.hpp"
+#include "bindings/values.hpp"
 #include "convex/convex_hull.hpp"
 #include "mesh/convexity.hpp"
 #include "mesh/hull_points.hpp"

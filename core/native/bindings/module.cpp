@@ -12,9 +12,8 @@
 #include "base/budget.hpp"
 #include "base/large_pages.hpp"
 #include "bindings/arguments.hpp"
-#include "bindings/tuples.hpp"
+#include "bindings/values.hpp"
 #include "convex/shape.hpp"
-#include "bindings/words.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck;

@@ -13,7 +13,7 @@
 #include <tuple>
 #include <utility>
 
-#include "bindings/tuples.hpp"
+#include "bindings/values.hpp"
 #include "motion/motion_search.hpp"
 #include "motion/sift.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bindings/interrupts.hpp"
-#include "bindings/tuples.hpp"
+#include "bindings/values.hpp"
 #include "mesh_pair/covers_once.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/surface_intersection.hpp"

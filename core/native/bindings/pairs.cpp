@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "base/numeric_range.hpp"
+#include "bindings/values.hpp"
 #include "convex/batch.hpp"
 #include "convex/exact_depth.hpp"
-#include "bindings/words.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck;
@@ -20,8 +20,6 @@ namespace {
 
 using Poses = nb::ndarray<const double, nb::shape<-1, 7>, nb::c_contig, nb::device::cpu>;
 using Indices = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
-nb::tuple to_tuple(Vec3 v) { return nb::make_tuple(v.x, v.y, v.z); }
 
 // Reads what another thread may change, so that the value that is checked is the value that is used.
 template <class T>
@@ -77,7 +75,7 @@ nb::object optional_number(const PairResult& r, double value) {
   return r.has_distance ? nb::object(nb::float_(value)) : nb::none();
 }
 nb::object optional_vector(const PairResult& r, Vec3 v) {
-  return r.has_distance ? nb::object(to_tuple(v)) : nb::none();
+  return r.has_distance ? nb::object(nb::make_tuple(v.x, v.y, v.z)) : nb::none();
 }
 std::int64_t index_or_minus_one(std::uint32_t index) {
   return index == Shape::kNoIndex ? -1 : static_cast<std::int64_t>(index);

@@ -9,8 +9,7 @@
 #include <stdexcept>
 
 #include "bindings/interrupts.hpp"
-#include "bindings/tuples.hpp"
-#include "bindings/words.hpp"
+#include "bindings/values.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/transform.hpp"

@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "bindings/interrupts.hpp"
-#include "bindings/tuples.hpp"
-#include "bindings/words.hpp"
+#include "bindings/values.hpp"
 #include "thickness/component_search.hpp"
 #include "thickness/face_fit.hpp"
 #include "thickness/shrunk.hpp"

@@ -12,7 +12,7 @@
 #include "base/rounding.hpp"
 #include "convex/exact_distance.hpp"
 #include "convex/minkowski.hpp"
-#include "convex/world_hull.hpp"
+#include "convex/shape.hpp"
 
 namespace satcheck {
 namespace {

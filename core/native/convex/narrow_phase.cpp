@@ -10,11 +10,11 @@
 #include "convex/epa.hpp"
 #include "convex/exact_depth.hpp"
 #include "convex/exact_distance.hpp"
+#include "convex/minkowski.hpp"
 #include "convex/pair_order.hpp"
 #include "convex/portal.hpp"
-#include "convex/minkowski.hpp"
 #include "convex/separating_face.hpp"
-#include "convex/world_hull.hpp"
+#include "convex/shape.hpp"
 
 namespace satcheck {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "convex/narrow_phase.hpp"
-#include "convex/world_hull.hpp"
+#include "convex/shape.hpp"
 
 namespace satcheck {
 

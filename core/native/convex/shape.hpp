@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "convex/box_frame.hpp"
 #include "convex/convex_hull.hpp"
@@ -95,5 +96,31 @@ SATCHECK_INLINE CorePoint inlined_core_support(const Shape& shape, Vec3 d) {
   const unsigned x = d.x >= 0, y = d.y >= 0, z = d.z >= 0;
   return {{x ? s.x : -s.x, y ? s.y : -s.y, z ? s.z : -s.z}, x << 2 | y << 1 | z};
 }
+
+// Whether a shape is a polytope that is not moved. It is then its own world hull.
+bool is_in_place(const Shape& shape, const Pose& pose);
+
+// The vertices of the core in the world, each rounded by the pose. Of a sphere the centre, of a capsule the ends of its
+// axis. Not for other curved shapes.
+std::vector<Vec3> world_points(const Shape& shape, const Pose& pose);
+
+// The hull of world_points(), for a polytope: its core for exact arithmetic. Hulls that are moved are computed again,
+// because rounding bends their faces. A polytope in place is not copied, so the shape must outlive this.
+class WorldHull {
+ public:
+  WorldHull(const Shape& shape, const Pose& pose);
+  WorldHull(const WorldHull&) = delete;
+  WorldHull& operator=(const WorldHull&) = delete;
+
+  // A hull in place, with faces.
+  const Shape& shape() const { return moved_ ? *moved_ : *in_place_; }
+  // In the world, not rounded.
+  Vec3 vertex(std::size_t i) const { return shape().polytope.vertices[i] + shape().origin; }
+  std::vector<Vec3> vertices() const;  // in the world
+
+ private:
+  const Shape* in_place_ = nullptr;
+  std::optional<Shape> moved_;
+};
 
 }  // namespace satcheck

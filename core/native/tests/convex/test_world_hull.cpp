@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "convex/convex_hull.hpp"
-#include "convex/world_hull.hpp"
+#include "convex/shape.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"
 
