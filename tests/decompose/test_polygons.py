@@ -1,4 +1,4 @@
-"""decompose/polygons.py: no area is lost or made by cutting."""
+"""decompose/error_bounds.py, cutting: no area is lost or made."""
 
 from __future__ import annotations
 
