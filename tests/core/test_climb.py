@@ -112,8 +112,9 @@ def test_threads_change_nothing(threads: int) -> None:
     assert said(many.results()) == said(one.results())
 
 
-def test_python_goes_on_while_a_batch_that_nobody_takes_ends() -> None:
-    """Else no thread would hear Ctrl-C meanwhile."""
+def turns_while_a_batch_ends() -> int:
+    """How far another thread counts while a batch that nobody takes is given up. It may be none:
+    the batch may be done by then, or the other thread may get no processor."""
     climbing = core.Climbing(questions(crowd(150)), threads=2)
     turns, ended = 0, Event()
 
@@ -131,7 +132,13 @@ def test_python_goes_on_while_a_batch_that_nobody_takes_ends() -> None:
     after = turns
     ended.set()
     other.join()
-    assert after > before
+    return after - before
+
+
+def test_python_goes_on_while_a_batch_that_nobody_takes_ends() -> None:
+    """Else no thread would hear Ctrl-C meanwhile. One that holds Python lets nobody count, however
+    often it is tried."""
+    assert any(turns_while_a_batch_ends() for _ in range(50))
 
 
 def test_a_capped_climb_settles_nothing_that_it_cannot_prove() -> None:
