@@ -135,8 +135,7 @@ def _vertices_on_faces(
     corners = b.corners
     used = a.neighbours[a.first[:-1][a.first[:-1] < a.first[1:]], 0]
     at = a.points[used]
-    faces = corners.min(axis=1), corners.max(axis=1)
-    i, j = near_boxes((at, at), faces, tolerance, MOST_NEAR)
+    i, j = near_boxes(at, at, corners.min(axis=1), corners.max(axis=1), tolerance, MOST_NEAR)
     i = used[i]
     n = b.normals[j]
     facing = np.einsum("ci,ci->c", n, a.point_normals[i]) < 0
@@ -170,8 +169,14 @@ def _lowest_neighbour(a: Features, vertices: Indices, normals: Floats) -> Floats
 def _edges_on_edges(a: Features, b: Features, tolerance: float, rounding: float) -> Points:
     """Convex edges of A across convex edges of B."""
     of_a, of_b = a.points[a.ends], b.points[b.ends]
-    boxes_a, boxes_b = ((edges.min(axis=1), edges.max(axis=1)) for edges in (of_a, of_b))
-    i, j = near_boxes(boxes_a, boxes_b, tolerance, MOST_NEAR)
+    i, j = near_boxes(
+        of_a.min(axis=1),
+        of_a.max(axis=1),
+        of_b.min(axis=1),
+        of_b.max(axis=1),
+        tolerance,
+        MOST_NEAR,
+    )
     if not i.size:
         return NOBODY
     p, q = of_a[i], of_b[j]

@@ -1,19 +1,17 @@
-"""Pairs of boxes that are within reach of each other, and cross products."""
+"""Pairs of boxes that are within reach of each other."""
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-
-from satcheck import core
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-TAKEN = 1 << 18  # pairs that come from the core together
+BLOCK = 1 << 18  # pairs compared at once
 
 
 class TooManyNear(Exception):
@@ -21,30 +19,62 @@ class TooManyNear(Exception):
 
 
 def near_boxes(
-    a: tuple[Floats, Floats],
-    b: tuple[Floats, Floats] | None,
+    low_a: Floats,
+    high_a: Floats,
+    low_b: Floats,
+    high_b: Floats,
     reach: float,
-    most: float = math.inf,
+    most: int | None = None,
 ) -> tuple[Indices, Indices]:
-    """Return all pairs (i, j) of a box of `a` and one of `b` that are no farther apart than this.
+    """All pairs (i, j) of boxes (n, 3), (m, 3) whose coordinates are within reach on every axis.
 
-    a, b: the lower and the upper corners of boxes, each (n, 3); None: those of `a`, each pair once.
-    Raises TooManyNear for more than `most` pairs.
+    Boxes are halved until a product of two sets is small enough to compare at once. Raises
+    TooManyNear for more than `most` pairs.
     """
-    ends = a if b is None else tuple(map(np.concatenate, zip(a, b, strict=True)))
-    low, high = (list(map(tuple, end.tolist())) for end in ends)
-    count = len(a[0])
-    kinds = [int(b is not None and k >= count) for k in range(len(low))]
-    exempt = [] if b is None else [(0, 0), (1, 1)]
-    boxes = list(zip(low, high, strict=True))
-    close = core.ClosePairs(boxes, [0.5 * reach] * len(boxes), kinds, exempt)
-    found = [np.empty((0, 2), dtype=np.int64)]
-    while taken := close.take(TAKEN):
-        found.append(np.array(taken, dtype=np.int64))
-        if sum(map(len, found)) > most:
+    found_i: list[Indices] = []
+    found_j: list[Indices] = []
+    count = 0
+    for i, j in _products(low_a, high_a, low_b, high_b, reach):
+        gaps = np.maximum(low_a[i][:, None] - high_b[j], low_b[j] - high_a[i][:, None])
+        k, m = np.nonzero((gaps <= reach).all(axis=2))
+        found_i.append(i[k])
+        found_j.append(j[m])
+        count += k.size
+        if most is not None and count > most:
             raise TooManyNear
-    i, j = np.concatenate(found).T
-    return i, j if b is None else j - count
+    if not found_i:
+        nobody = np.empty(0, dtype=np.int64)
+        return nobody, nobody
+    return np.concatenate(found_i), np.concatenate(found_j)
+
+
+def _products(
+    low_a: Floats, high_a: Floats, low_b: Floats, high_b: Floats, reach: float
+) -> Iterator[tuple[Indices, Indices]]:
+    pending = [(np.arange(len(low_a)), np.arange(len(low_b)))]
+    while pending:
+        i, j = pending.pop()
+        if not (i.size and j.size):
+            continue
+        low, high = low_b[j].min(axis=0) - reach, high_b[j].max(axis=0) + reach
+        i = i[((low_a[i] <= high) & (high_a[i] >= low)).all(axis=1)]
+        if not i.size:
+            continue
+        low, high = low_a[i].min(axis=0) - reach, high_a[i].max(axis=0) + reach
+        j = j[((low_b[j] <= high) & (high_b[j] >= low)).all(axis=1)]
+        if i.size * j.size <= BLOCK:
+            yield i, j
+        elif i.size >= j.size:
+            pending += [(half, j) for half in _halves(i, low_a[i] + high_a[i])]
+        else:
+            pending += [(i, half) for half in _halves(j, low_b[j] + high_b[j])]
+
+
+def _halves(index: Indices, centres: Floats) -> list[Indices]:
+    axis = int(np.argmax(centres.max(axis=0) - centres.min(axis=0)))
+    order = np.argsort(centres[:, axis], kind="stable")
+    middle = len(index) // 2
+    return [index[order[:middle]], index[order[middle:]]]
 
 
 def cross(u: Floats, v: Floats) -> Floats:

@@ -68,9 +68,9 @@ def contacts_of(
     low = np.array([subject.body.bounds[0] for subject in subjects])
     high = np.array([subject.body.bounds[1] for subject in subjects])
     fixed = np.array([subject.fixed is not None for subject in subjects])
-    i, j = near_boxes((low.reshape(-1, 3), high.reshape(-1, 3)), None, tolerance)
-    kept = ~(fixed[i] & fixed[j])
-    numbers = list(zip(i[kept].tolist(), j[kept].tolist(), strict=True))
+    i, j = near_boxes(low, high, low, high, tolerance)
+    kept = (i < j) & ~(fixed[i] & fixed[j])
+    numbers = sorted(zip(i[kept].tolist(), j[kept].tolist(), strict=True))
     plain = Settings(
         tolerance=tolerance, depth=False, allow_open=settings.allow_open, jobs=settings.jobs
     )
@@ -146,7 +146,7 @@ def may_be_through(
         return True
     at = points.at
     try:
-        i, j = near_boxes((at, at), None, 4 * tolerance, MOST_NEAR)
+        i, j = near_boxes(at, at, at, at, 4 * tolerance, MOST_NEAR)
     except TooManyNear:
         return True
     cosines = np.einsum("ci,ci->c", points.normals[i], points.normals[j])
