@@ -11,7 +11,6 @@ from __future__ import annotations
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
-from trimesh.triangles import closest_point
 
 from satcheck.audit.statics.features import Features
 from satcheck.audit.statics.near import Flags, Floats, Indices, cross, near_boxes
@@ -140,7 +139,7 @@ def _vertices_on_faces(
     n = b.normals[j]
     facing = np.einsum("ci,ci->c", n, a.point_normals[i]) < 0
     i, j, n = i[facing], j[facing], n[facing]
-    foot = closest_point(corners[j], a.points[i])
+    foot = nearest_on_triangles(a.points[i], corners[j])
     step = a.points[i] - foot
     height = np.einsum("ci,ci->c", n, step)
     aside = np.linalg.norm(step - n * height[:, None], axis=1)
@@ -217,6 +216,34 @@ def _nearest_on_lines(p: Floats, u: Floats, q: Floats, v: Floats) -> tuple[Float
     return np.asarray((uv * vw - vv * uw) / area), np.asarray((uu * vw - uv * uw) / area)
 
 
+def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:
+    """The nearest point of triangle k to point k. points: (n, 3), corners: (n, 3, 3).
+
+    C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5, for many triangles: the
+    foot on the plane if it is inside, else the nearest of three edges.
+    """
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    ab, ac = b - a, c - a
+    n = cross(ab, ac)
+    step = points - a
+    area = np.einsum("ci,ci->c", n, n)
+    over = np.einsum("ci,ci->c", n, step) / area
+    foot = points - n * over[:, None]
+    inside = np.ones(len(points), dtype=bool)
+    best, nearest = foot, np.full(len(points), np.inf)
+    for p, q in ((a, b), (b, c), (c, a)):
+        along = q - p
+        inside &= np.einsum("ci,ci->c", cross(along, foot - p), n) >= 0
+        share = np.einsum("ci,ci->c", points - p, along) / np.einsum("ci,ci->c", along, along)
+        on_edge = p + along * np.clip(share, 0.0, 1.0)[:, None]
+        away = points - on_edge
+        squared = np.einsum("ci,ci->c", away, away)
+        closer = squared < nearest
+        nearest = np.where(closer, squared, nearest)
+        best = np.where(closer[:, None], on_edge, best)
+    return np.asarray(np.where(inside[:, None], foot, best))
+
+
 def ball_on_mesh(
     centre: Floats, radius: float, mesh: Features, tolerance: float, rounding: float
 ) -> Points:
@@ -229,7 +256,7 @@ def ball_on_mesh(
     near = np.flatnonzero(((low <= centre + reach) & (high >= centre - reach)).all(axis=1))
     if not near.size:
         return NOBODY
-    foot = closest_point(corners[near], np.broadcast_to(centre, (near.size, 3)))
+    foot = nearest_on_triangles(np.broadcast_to(centre, (near.size, 3)), corners[near])
     step = centre - foot
     distance = np.linalg.norm(step, axis=1)
     outside = np.einsum("ci,ci->c", step, mesh.normals[near]) > 0

@@ -11,7 +11,7 @@ from msgspec import Struct
 
 from satcheck.audit.body import PlacedBody
 from satcheck.audit.statics.features import Features, features_of
-from satcheck.audit.statics.near import Floats, Indices
+from satcheck.audit.statics.near import Floats, Indices, cross
 from satcheck.core.conventions import Vector
 from satcheck.core.curved.placed import CurvedShape, rows_of
 from satcheck.core.shapes import Cone, Primitive, Sphere, half_sizes
@@ -111,15 +111,19 @@ def _centre_of_shape(curved: CurvedShape) -> Floats:
 def volume_and_centre(points: Floats, triangles: Indices) -> tuple[float, Floats]:
     """Return those of the region that the surface winds around once. The volume may be 0 or less.
 
-    They are taken about the middle of the box of the body, so that little cancels. The weights only
-    set up the problem; the checker of certificates weighs again, exactly.
+    B. Mirtich, "Fast and Accurate Computation of Polyhedral Mass Properties" (1996): by tetrahedra
+    between each triangle and one point, which is taken inside the box of the body, so that little
+    cancels. The weights only set up the problem; the checker of certificates weighs again, exactly.
     """
-    from trimesh.triangles import mass_properties
-
     used = points[triangles]
     middle = 0.5 * (used.min(axis=(0, 1)) + used.max(axis=(0, 1)))
-    mass = mass_properties(used - middle, skip_inertia=True)
-    return float(mass.volume), middle + mass.center_mass
+    corners = used - middle
+    six = np.einsum("ti,ti->t", corners[:, 0], cross(corners[:, 1], corners[:, 2]))
+    volume = math.fsum(six) / 6.0
+    if volume <= 0:
+        return volume, middle
+    moments = [math.fsum(six * corners[:, :, k].sum(axis=1)) / 24.0 for k in range(3)]
+    return volume, middle + np.array(moments) / volume
 
 
 def volume_of_shape(shape: Primitive) -> float:
