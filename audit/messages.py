@@ -143,10 +143,11 @@ def _no_collision(report: Report) -> str:
 
 def _while_moving(report: Report) -> str:
     """Return ` on the path through 3 poses`; nothing where bodies stand still."""
-    for motion in report.motions:
-        if isinstance(motion, JointPath):
-            return f" on the path through {counted(len(motion.waypoints), 'pose')}"
-    return f" during {counted(len(report.motions), 'motion')}" if report.motions else ""
+    paths = [each for each in report.motions if isinstance(each, JointPath)]
+    said = [f"on the path through {counted(len(path.waypoints), 'pose')}" for path in paths]
+    if others := len(report.motions) - len(paths):
+        said.append(f"during {counted(others, 'motion')}")
+    return f" {' and '.join(said)}" if said else ""
 
 
 def _allowing(finding: Finding) -> list[str]:

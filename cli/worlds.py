@@ -76,13 +76,11 @@ def check_worlds(
     and where the file stays.
     """
     document = Document()
-    how: dict[str, Any] = {"scheduler": scheduler}
-    if scheduler is None:
-        how = _of_slots(terms, len(worlds), kept=results is not None)
+    stays, is_alone = results is not None, not to.targets
+    how = {"scheduler": scheduler} if scheduler else _of_slots(terms, len(worlds), kept=stays)
     check = partial(engine, options=terms, limits=limits, **how)
     with _temporary_folder() as folder:
         path = results or os.path.join(folder, "results.jsonl")  # noqa: PTH118  may be a URL
-        stays, is_alone = results is not None, not to.targets
         try:
             tally, seen = _run(
                 worlds, terms, limits, check, path, resume=resume, stays=stays, is_alone=is_alone
@@ -95,16 +93,13 @@ def check_worlds(
             talk(_summary(tally, seen, results))
         left = len(worlds) - tally.done
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
-        if terms.baseline is not None:
-            file = Path(terms.baseline)
-            issues += about_gone_assets(read_baseline(file), file)
+        issues += _about_baseline(terms)
         if seen is not None:
             for issue in () if to.quiet else issues:
                 talk(f"satcheck: {issue_line(issue)}")
             return seen.exit_code(exit_zero=to.exit_zero)
-        read: AbstractContextManager[StoredResults | NewResults]
-        new = NewResults(Path(path), tally.done)
-        read = StoredResults([Path(path)]) if stays else nullcontext(new)
+        new = nullcontext(NewResults(Path(path), tally.done))
+        read = StoredResults([Path(path)]) if stays else new
         deliver = partial(_deliver, document, read, issues, to, terms.allow_outside)
         compares, is_broken_off = compares and not left, bool(left)
         try:
@@ -117,6 +112,14 @@ def check_worlds(
     if left:
         talk(f"satcheck: {issues[0].message}")
     return exit_codes.INTERRUPTED if is_broken_off else seen.exit_code(exit_zero=to.exit_zero)
+
+
+def _about_baseline(terms: CheckOptions) -> tuple[Issue, ...]:
+    """Return what no single world tells."""
+    if terms.baseline is None:
+        return ()
+    file = Path(terms.baseline)
+    return about_gone_assets(read_baseline(file), file)
 
 
 def _of_slots(terms: CheckOptions, worlds: int, *, kept: bool) -> dict[str, Any]:

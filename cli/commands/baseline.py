@@ -101,6 +101,9 @@ def prune(file: Path, reports: Sequence[Path]) -> None:
     for asset, report in _named_reports(reports, file):
         absent += absent_from(report, baseline, asset)
         gone.pop(asset, None)
+    if gone and gone.keys() == set(baseline.assets):
+        message = "all its assets are gone: was it written in another folder?"
+        raise click.UsageError(f"{file}: {message}")
     _write(file, baseline, pruned(baseline, absent, gone))
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import logging
 import re
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from logging.handlers import BufferingHandler
@@ -24,7 +25,6 @@ from satcheck.scene.files.readers import File, imported
 from satcheck.scene.units import unit_of
 
 _MOST_VERTICES = 2**32  # they are numbered in 32 bits
-_MOST_WARNINGS = 1_000_000  # any is an error
 
 
 def read_tail(file: File) -> Document:
@@ -86,7 +86,7 @@ def _mesh(geometry: Any, units: str | None) -> RawMesh | Refusal:
 @contextmanager
 def _warnings() -> Iterator[list[logging.LogRecord]]:
     """What trimesh warns of meanwhile."""
-    handler, log = BufferingHandler(_MOST_WARNINGS), logging.getLogger("trimesh")
+    handler, log = BufferingHandler(sys.maxsize), logging.getLogger("trimesh")
     handler.setLevel(logging.WARNING)
     log.addHandler(handler)
     try:

@@ -302,6 +302,21 @@ def test_the_life_of_a_baseline(tmp_path: Path) -> None:
     assert repository.known() == ["rack.3mf"]
 
 
+def test_a_baseline_that_stands_in_another_folder_loses_nothing(tmp_path: Path) -> None:
+    repository = Repository(tmp_path)
+    repository.report()
+    repository.run("baseline", "write", "known.json", "report.json")
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    shutil.move(tmp_path / "known.json", elsewhere)
+    (elsewhere / "report.json").write_text(
+        (tmp_path / "report.json").read_text().replace("gripper.glb", "other.glb")
+    )
+    ran = repository.run("baseline", "prune", "elsewhere/known.json", "elsewhere/report.json")
+    assert ran.code == 2
+    assert "was it written in another folder?" in " ".join(ran.err.split())
+
+
 def test_an_asset_of_a_report_is_not_gone(tmp_path: Path) -> None:
     repository = Repository(tmp_path)
     repository.report()

@@ -193,3 +193,36 @@ def test_what_is_not_resolved() -> None:
     assert not overlap_components(of(lidless), plate, PLENTY).resolved
     assert not overlap_components(of(pin(0.3, 4)), plate, 3).resolved
     assert passes_through(of(pin(0.3, 4)), plate, 3) is None
+
+
+FACES = np.array(
+    [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1),
+     (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+)  # fmt: skip
+
+
+def spanned(low: tuple[float, float, float], high: tuple[float, float, float]) -> Any:
+    corners = list(itertools.product(*zip(low, high, strict=True)))
+    return trimesh.Trimesh(corners, FACES, process=False)
+
+
+def test_a_way_through_a_line_along_which_the_surfaces_meet() -> None:
+    """A first ray from the small box to the outside goes through the end of the hollow at `wall`,
+    where it cuts the side of the other solid. Volumes grow with the wall, and linearly."""
+    a = of(
+        spanned((0, 0, 0), (16, 16, 16)),
+        turned_over(spanned((2, 2, 2), (15.5, 14, 14))),
+        spanned((6, 6, 6), (9, 9, 9)),
+        spanned((12, 3, 3), (15, 13, 13)),
+    )
+
+    def volumes(wall: float) -> list[float]:
+        outer = spanned((1, 1, 1), (15.75, 15, 15))
+        hollow = turned_over(spanned((14.5, 1.5, 1.5), (15.25, wall, 14.5)))
+        found = overlap_components(a, of(outer, hollow), PLENTY)
+        assert found.resolved
+        return [each.volume for each in found.components]
+
+    wall = 6.857982247881678
+    beside = np.mean([volumes(wall - 0.25), volumes(wall + 0.25)], axis=0)
+    assert volumes(wall) == pytest.approx(beside, rel=1e-12)

@@ -85,10 +85,4 @@ bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit,
   return visit_where(bvh, mesh, [&](const Aabb& box) { return meet(box, query); }, visit, budget);
 }
 
-// The same for a tree that has all boxes.
-template <class Visit>
-bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
-  return visit_box(bvh, Mesh{}, query, visit);
-}
-
 }  // namespace satcheck

@@ -73,7 +73,7 @@ std::vector<std::vector<std::uint32_t>> join_loops(std::vector<NodePair> segment
       std::map<std::uint32_t, std::size_t> place{{start, 0}};
       do {
         std::vector<std::uint32_t>& out = leaving[path.back()];
-        if (out.empty()) throw std::logic_error("the border of a contact patch does not close");
+        if (out.empty()) throw std::logic_error("the segments do not close");
         const std::uint32_t next = out.back();
         out.pop_back();
         const auto [known, is_new] = place.emplace(next, path.size());

@@ -13,7 +13,7 @@
 namespace satcheck {
 
 // Appends to the welded mesh the triangles that close its cracks; returns how many loops of the boundary
-// they close. width: points within it may be the same point.
+// they close. width: points within it may be the same point. Throws BudgetSpent.
 std::size_t seal_cracks(Mesh& welded, double width, Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -20,7 +20,7 @@ struct Inspection {
   std::vector<Hole> holes; // of `mesh`, the largest first
 };
 
-// Both throw BudgetSpent if orienting takes more than kMostSteps. poll: called now and then. A mesh with a boundary is
+// Both throw BudgetSpent if orienting, or closing cracks, takes more than kMostSteps. poll: called now and then. A mesh with a boundary is
 // oriented by with_cracks_closed().
 Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll = {});
 

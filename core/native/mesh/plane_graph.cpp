@@ -287,38 +287,55 @@ void PlaneGraph::join_outlines(DisjointSets& sets) const {
   std::uint32_t outside = kNone;
   for (const std::uint32_t h : last) {
     if (h == kNone) continue;
-    const std::uint32_t around = outline_around(nodes_[start(h)], part_[start(h)]);
+    const std::uint32_t around = outline_around(nodes_[start(h)], part_[start(h)]).value();
     if (around == kNone && outside == kNone) outside = outline_[h];
     sets.unite(outline_[h], around == kNone ? outside : around);
   }
 }
 
-// How many times an outline turns counter-clockwise around a point that is not on it: a ray along the first axis of the
-// plane meets the half-edges that rise past the point and those that fall, each of which contains its lower end only.
-int PlaneGraph::winding(std::uint32_t outline, const LazyPoint& p) const {
-  const int axis = plane_axes(axis_).j;
-  int winding = 0;
-  std::uint64_t count = 0;
-  visit_outline(outline, [&](std::uint32_t h) {
-    ++count;
-    const bool from_below = compare_along(nodes_[start(h)], p, axis, budget_) <= 0;
-    const bool to_below = compare_along(nodes_[end(h)], p, axis, budget_) <= 0;
-    if (from_below == to_below) return;
-    const bool on_left = turn_ * side(far_end(h ^ 1), far_end(h), p) > 0;
-    if (on_left == from_below) winding += from_below ? turn_ : -turn_;
-  });
-  spend(budget_, kPassWork * count);
-  return winding;
+std::optional<std::uint32_t> PlaneGraph::face_at(const LazyPoint& p) const {
+  const auto around = outline_around(p, kNone);
+  return around && *around != kNone ? std::optional(face_[*around]) : std::nullopt;
 }
 
-// The innermost outline that has the point on its left, of the parts of the graph other than one; kNone if there is none.
-// Of each part one at most has it. Outlines of different parts do not meet, so one of two contains the other.
-std::uint32_t PlaneGraph::outline_around(const LazyPoint& p, std::uint32_t other_than) const {
+// How many times an outline turns counter-clockwise around a point; nothing for a point on it. A ray along the first axis
+// of the plane meets the half-edges that rise past the point and those that fall, each of which contains its lower end
+// only.
+std::optional<int> PlaneGraph::winding(std::uint32_t outline, const LazyPoint& p) const {
+  const auto [along, up] = plane_axes(axis_);
+  int winding = 0;
+  bool on_outline = false;
+  std::uint64_t count = 0;
+  visit_outline(outline, [&, along = along, up = up](std::uint32_t h) {
+    ++count;
+    const LazyPoint &tail = nodes_[start(h)], &head = nodes_[end(h)];
+    const int from = compare_along(tail, p, up, budget_), to = compare_along(head, p, up, budget_);
+    if (from * to > 0) return;
+    if (from == 0 && to == 0) {
+      on_outline |= compare_along(tail, p, along, budget_) * compare_along(head, p, along, budget_) <= 0;
+      return;
+    }
+    const int left = turn_ * side(far_end(h ^ 1), far_end(h), p);
+    on_outline |= left == 0;
+    const bool rises = from <= 0;
+    if (rises != (to <= 0) && (left > 0) == rises) winding += rises ? turn_ : -turn_;
+  });
+  spend(budget_, kPassWork * count);
+  return on_outline ? std::nullopt : std::optional(winding);
+}
+
+// The innermost outline that has the point on its left, of the parts of the graph other than one; kNone if there is none;
+// nothing for a point on a segment. Of each part one at most has it. Outlines of different parts do not meet, so one of
+// two contains the other.
+std::optional<std::uint32_t> PlaneGraph::outline_around(const LazyPoint& p, std::uint32_t other_than) const {
+  spend(budget_, kPassWork * first_.size());
   std::uint32_t innermost = kNone;
   for (std::uint32_t k = 0; k < first_.size(); ++k) {
     const std::uint32_t node = start(first_[k]);
-    if (part_[node] == other_than || !satcheck::meet(boxes_[k], point_box(p)) || winding(k, p) <= 0) continue;
-    if (innermost == kNone || winding(innermost, nodes_[node]) > 0) innermost = k;
+    if (part_[node] == other_than || !satcheck::meet(boxes_[k], point_box(p))) continue;
+    const auto turns = winding(k, p);
+    if (!turns) return std::nullopt;
+    if (*turns > 0 && (innermost == kNone || winding(innermost, nodes_[node]).value() > 0)) innermost = k;
   }
   return innermost;
 }

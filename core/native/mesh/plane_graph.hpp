@@ -75,8 +75,8 @@ class PlaneGraph {
   std::uint32_t segment(std::uint32_t h) const { return edges_[h / 2].segment; }
   std::uint32_t face(std::uint32_t h) const { return face_[outline_[h]]; }
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(outlines_.size()); }
-  // The face that contains a point, which is on no segment and not outside of all.
-  std::uint32_t face_at(const LazyPoint& p) const { return face_[outline_around(p, kNone)]; }
+  // The face that contains a point; nothing for a point on a segment, or outside of all.
+  std::optional<std::uint32_t> face_at(const LazyPoint& p) const;
   PlaneChanges changes(std::uint32_t h) const;
   // Any half-edge of a face, and all of them, one outline after another.
   std::uint32_t first(std::uint32_t face) const { return first_[outlines_[face][0]]; }
@@ -121,8 +121,8 @@ class PlaneGraph {
       h = next_[h];
     } while (h != first_[outline]);
   }
-  int winding(std::uint32_t outline, const LazyPoint& p) const;
-  std::uint32_t outline_around(const LazyPoint& p, std::uint32_t other_than) const;
+  std::optional<int> winding(std::uint32_t outline, const LazyPoint& p) const;
+  std::optional<std::uint32_t> outline_around(const LazyPoint& p, std::uint32_t other_than) const;
   void sort_around(std::vector<std::uint32_t>& half_edges) const;
   std::uint32_t far_end(std::uint32_t h) const;
   Ratio clear_way(const LazyPoint& from, const LazyPoint& to) const;

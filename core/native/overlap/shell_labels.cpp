@@ -13,18 +13,23 @@ struct Hit {
   std::uint32_t near_side, far_side;
 };
 
-// Adds the hits of one surface on the segment from p to `far`. False: the segment meets an edge.
+// Adds the hits of one surface on the segment from p to `far`. False: the segment meets an edge, or a line along which the
+// surfaces meet.
 bool add_hits(const SpaceCells& cells, int mesh, const ExactPoint& p, Vec3 far, std::vector<Hit>& hits) {
   const Surface& surface = cells.surface(mesh);
   const ExactPoint end = make_exact_point(far);
-  const auto all = [](std::uint32_t) { return true; };
-  return visit_crossings(surface.mesh, surface.bvh, p, far, all, [&](std::uint32_t t, int crossing) {
+  bool clear = true;
+  const auto all = [&](std::uint32_t) { return clear; };
+  const bool crosses = visit_crossings(surface.mesh, surface.bvh, p, far, all, [&](std::uint32_t t, int crossing) {
     const Corners c = corners(surface.mesh, t);
     Ratio at = zero_between(orientation_value(c[0], c[1], c[2], p), orientation_value(c[0], c[1], c[2], far) * p.w);
-    const std::uint32_t face = cells.face_at(mesh, t, between(p, end, at.denominator - at.numerator, at.numerator));
+    const auto face = cells.face_at(mesh, t, between(p, end, at.denominator - at.numerator, at.numerator));
+    clear = face.has_value();
+    if (!clear) return;
     const bool to_front = crossing > 0;
-    hits.push_back({std::move(at), 2 * face + (to_front ? 1 : 0), 2 * face + (to_front ? 0 : 1)});
+    hits.push_back({std::move(at), 2 * *face + (to_front ? 1 : 0), 2 * *face + (to_front ? 0 : 1)});
   }, cells.budget());
+  return crosses && clear;
 }
 
 }  // namespace

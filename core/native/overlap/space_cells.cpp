@@ -62,8 +62,10 @@ ExactPoint TriangleFaces::sample(std::uint32_t face) const {
   return *graph_.inside_left_of(graph_.first(face < outside_ ? face : face + 1), corners_, 0);
 }
 
-std::uint32_t TriangleFaces::face_at(const ExactPoint& p) const {
-  return count() == 1 ? 0 : name_of(graph_.face_at(lazy(p)));
+std::optional<std::uint32_t> TriangleFaces::face_at(const ExactPoint& p) const {
+  if (count() == 1) return 0;
+  const auto face = graph_.face_at(lazy(p));
+  return face ? std::optional(name_of(*face)) : std::nullopt;
 }
 
 SpaceCells::SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs, Budget* budget)
@@ -208,9 +210,9 @@ ExactPoint SpaceCells::sample(std::uint32_t face) const {
   return cuts_[cut_[f.mesh][f.triangle]].sample(f.within);
 }
 
-std::uint32_t SpaceCells::face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const {
-  const std::uint32_t within = in_contact(mesh, triangle) ? cuts_[cut_[mesh][triangle]].face_at(p) : 0;
-  return first_face_[mesh][triangle] + within;
+std::optional<std::uint32_t> SpaceCells::face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const {
+  const auto within = in_contact(mesh, triangle) ? cuts_[cut_[mesh][triangle]].face_at(p) : 0;
+  return within ? std::optional(first_face_[mesh][triangle] + *within) : std::nullopt;
 }
 
 template <class Visit>

@@ -39,7 +39,7 @@ class TriangleFaces {
 
   // A point inside a face; and the face that contains a point of the triangle that is on no stretch.
   ExactPoint sample(std::uint32_t face) const;
-  std::uint32_t face_at(const ExactPoint& p) const;
+  std::optional<std::uint32_t> face_at(const ExactPoint& p) const;
 
  private:
   std::uint32_t name_of(std::uint32_t face) const {
@@ -86,7 +86,7 @@ class SpaceCells {
 
   // A point inside the face; and the face of a triangle that contains a point.
   ExactPoint sample(std::uint32_t face) const;
-  std::uint32_t face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const;
+  std::optional<std::uint32_t> face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const;
   // The corners of the face and the box around them, rounded; and its area times its unit normal, in coordinates
   // relative to an origin.
   std::vector<Vec3> face_corners(std::uint32_t face) const;
