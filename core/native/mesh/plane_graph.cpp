@@ -284,10 +284,18 @@ void PlaneGraph::join_outlines(DisjointSets& sets) const {
     const bool is_later = known != kNone && at == start(known) && side(at, far_end(known), nodes_[far_end(h)]) > 0;
     if (known == kNone || is_later || (at != start(known) && is_before(at, start(known)))) known = h;
   }
+  // Parts with nodes of different names may touch: then a point beside the half-edge tells.
+  std::vector<std::uint32_t> nodes(nodes_.size());
+  std::iota(nodes.begin(), nodes.end(), 0u);
+  const auto around_part = [&](std::uint32_t h) {
+    if (const auto around = outline_around(nodes_[start(h)], part_[start(h)])) return *around;
+    const auto p = inside_left_of(h, nodes, 0);
+    return p ? outline_around({p->rounded, p->error, [&] { return *p; }}, part_[start(h)]).value() : kNone;
+  };
   std::uint32_t outside = kNone;
   for (const std::uint32_t h : last) {
     if (h == kNone) continue;
-    const std::uint32_t around = outline_around(nodes_[start(h)], part_[start(h)]).value();
+    const std::uint32_t around = around_part(h);
     if (around == kNone && outside == kNone) outside = outline_[h];
     sets.unite(outline_[h], around == kNone ? outside : around);
   }
@@ -324,8 +332,19 @@ std::optional<int> PlaneGraph::winding(std::uint32_t outline, const LazyPoint& p
   return on_outline ? std::nullopt : std::optional(winding);
 }
 
+// Whether one of two outlines, both around a point, lies within the other.
+bool PlaneGraph::is_within(std::uint32_t outline, std::uint32_t other) const {
+  std::optional<int> turns;
+  visit_outline(outline, [&](std::uint32_t h) {
+    if (!turns) turns = winding(other, nodes_[start(h)]);
+    if (turns) return;
+    turns = winding(other, lazy_between(nodes_[start(h)], nodes_[end(h)], 1, 1));
+  });
+  return turns.value_or(0) > 0;  // nothing: they coincide
+}
+
 // The innermost outline that has the point on its left, of the parts of the graph other than one; kNone if there is none;
-// nothing for a point on a segment. Of each part one at most has it. Outlines of different parts do not meet, so one of
+// nothing for a point on a segment. Of each part one at most has it. Outlines of different parts do not cross, so one of
 // two contains the other.
 std::optional<std::uint32_t> PlaneGraph::outline_around(const LazyPoint& p, std::uint32_t other_than) const {
   spend(budget_, kPassWork * first_.size());
@@ -335,7 +354,7 @@ std::optional<std::uint32_t> PlaneGraph::outline_around(const LazyPoint& p, std:
     if (part_[node] == other_than || !satcheck::meet(boxes_[k], point_box(p))) continue;
     const auto turns = winding(k, p);
     if (!turns) return std::nullopt;
-    if (*turns > 0 && (innermost == kNone || winding(innermost, nodes_[node]).value() > 0)) innermost = k;
+    if (*turns > 0 && (innermost == kNone || is_within(k, innermost))) innermost = k;
   }
   return innermost;
 }

@@ -122,6 +122,7 @@ class PlaneGraph {
     } while (h != first_[outline]);
   }
   std::optional<int> winding(std::uint32_t outline, const LazyPoint& p) const;
+  bool is_within(std::uint32_t outline, std::uint32_t other) const;
   std::optional<std::uint32_t> outline_around(const LazyPoint& p, std::uint32_t other_than) const;
   void sort_around(std::vector<std::uint32_t>& half_edges) const;
   std::uint32_t far_end(std::uint32_t h) const;
