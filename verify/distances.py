@@ -36,8 +36,7 @@ MOST_NEAR = 2_000_000
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """A finding with its certificate, its bodies, and what is asked of them. tolerance: of the
-    touch band."""
+    """A finding to be checked. tolerance: the width of its touch band."""
 
     finding: Finding
     certificate: Certificate

@@ -35,6 +35,7 @@ from satcheck.report.assets import Result
 from satcheck.report.json import document as json_document
 from satcheck.report.json import read_line
 from satcheck.report.report import Report
+from satcheck.report.suggestions import Suggestion
 from satcheck.scene import Scene
 from satcheck.scene.opening import is_folder
 from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed
@@ -70,9 +71,10 @@ def command(
 
     A rule limits an overlap to its thickness and its depth as placed, and 10 % more; one rule
     stands for all bodies whose names differ in a number. A touch needs no rule. Of a folder, each
-    asset is a scene of its own. Links of a robot that a joint connects are allowed; with --sample,
-    or several poses, also those in contact in every pose. A single pose places the robot. Confirm
-    each rule: an intended contact and a fault look the same.
+    asset is a scene of its own, and the worst one sets the limits of two names. Links of a robot
+    that a joint connects are allowed; with --sample, or several poses, also those in contact in
+    every pose. A single pose places the robot. Confirm each rule: an intended contact and a fault
+    look the same.
 
     Exit codes: 0, all pairs were looked at; 2, wrong usage, an unreadable input, or an internal
     error; 3, something could not be decided.
@@ -101,11 +103,7 @@ def command(
     pairs = [pair for pair in result.report.suggestions if never or pair.why != "never"]
     if form == "srdf":
         pairs = [pair for pair in pairs if pair.why != "contact"]
-    if form == "json":
-        text = json_document(result.report)
-    else:
-        text = srdf(result, pairs, robot) if form == "srdf" else toml(result, pairs)
-    document.deliver(lambda _: text, output, utf8=True)
+    document.deliver(lambda _: _text(form, result, pairs, robot), output, utf8=True)
     errors = [issue for issue in result.issues if issue.severity == "error"]
     for issue in errors:
         if issue.code not in told:
@@ -121,6 +119,13 @@ def command(
     if errors:
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if result.undecided else exit_codes.CLEAN
+
+
+def _text(form: str, result: Suggestions, pairs: Sequence[Suggestion], robot: str) -> str:
+    """robot: its name, for an SRDF."""
+    if form == "json":
+        return json_document(result.report)
+    return srdf(result, pairs, robot) if form == "srdf" else toml(result, pairs)
 
 
 def _tell_of_assets(result: Suggestions, inputs: Inputs) -> None:

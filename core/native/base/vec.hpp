@@ -98,11 +98,11 @@ struct Aabb {
     return min.x <= box.min.x && min.y <= box.min.y && min.z <= box.min.z && box.max.x <= max.x && box.max.y <= max.y &&
            box.max.z <= max.z;
   }
-  int widest_axis() const {
-    const Vec3 size = max - min;
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  }
   Vec3 size() const { return max - min; }
+  int widest_axis() const {
+    const Vec3 s = size();
+    return s.x >= s.y && s.x >= s.z ? 0 : s.y >= s.z ? 1 : 2;
+  }
   Vec3 centre() const { return min * 0.5 + max * 0.5; }
   double largest_coordinate() const { return larger(max_abs(min), max_abs(max)); }
   Aabb widened(double by) const { return {min - Vec3{by, by, by}, max + Vec3{by, by, by}}; }

@@ -15,9 +15,9 @@
 #include "base/rounding.hpp"
 #include "depth/forbidden_union.hpp"
 #include "depth/overlap_proof.hpp"
+#include "depth/planes.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/moved_surface.hpp"
-#include "depth/planes.hpp"
 
 namespace satcheck {
 namespace {
