@@ -4,6 +4,8 @@
 #include "convex/box_frame.hpp"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 
 #include "base/rounding.hpp"
 
@@ -45,27 +47,26 @@ std::optional<BoxFrame> find_box(std::vector<Vec3> corners) {
   const Vec3 axes[3] = {cross(second, third), second, third};
   BoxFrame box;
   Vec3 low, high;
-  double* const least[3] = {&low.x, &low.y, &low.z};
-  double* const most[3] = {&high.x, &high.y, &high.z};
   for (int i = 0; i < 3; ++i) {
     const auto along = [&](Vec3 p, Vec3 q) { return dot(axes[i], p - corners[0]) < dot(axes[i], q - corners[0]); };
     const auto [first, last] = std::minmax_element(corners.begin(), corners.end(), along);
-    *least[i] = dot(axes[i], *first - corners[0]);
-    *most[i] = dot(axes[i], *last - corners[0]);
+    low.at(i) = dot(axes[i], *first - corners[0]);
+    high.at(i) = dot(axes[i], *last - corners[0]);
   }
   box.half = (high - low) * 0.5;
   const Vec3 middle = (low + high) * 0.5;
   box.rotation = {{{axes[0].x, axes[1].x, axes[2].x}, {axes[0].y, axes[1].y, axes[2].y}, {axes[0].z, axes[1].z, axes[2].z}}};
   box.centre = corners[0] + box.rotation * middle;
-  unsigned seen = 0;
+  std::array<bool, 8> seen{};  // a corner in each octant
   for (Vec3 p : corners) {
     const Vec3 q = transpose_times(box.rotation, p - box.centre);
     const Vec3 off{std::fabs(q.x) - box.half.x, std::fabs(q.y) - box.half.y, std::fabs(q.z) - box.half.z};
     box.error = std::fmax(box.error, norm(off));
-    seen |= 1u << ((q.x > 0) + 2 * (q.y > 0) + 4 * (q.z > 0));
+    seen[(q.x > 0) + 2 * (q.y > 0) + 4 * (q.z > 0)] = true;
   }
   const double diagonal = norm(box.half);
-  if (seen != 0xFF || !(box.error <= kRoundedBox * diagonal)) return std::nullopt;
+  const bool is_in_all = std::all_of(seen.begin(), seen.end(), std::identity{});
+  if (!is_in_all || !(box.error <= kRoundedBox * diagonal)) return std::nullopt;
   const bool is_aligned = std::all_of(axes, axes + 3, [](Vec3 axis) { return max_abs(axis) == 1; });
   if (!is_aligned) box.error += kFrameError * diagonal;
   return box;
