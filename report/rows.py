@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 TEXT, NUMBER, TRUTH = "object", "float64", "boolean"
 # Columns, and what is in them. Lower ends are those of proven intervals, with the figure as upper
-# end. Lengths are in the units of the report.
+# end. Lengths are in the units of the report. impact: of bodies that hit while they move, the time
+# of a `Sweep`, its point, and the numbers of the poses before and after it.
 COLUMNS = {
     **dict.fromkeys(("a", "b", "relation", "severity"), TEXT),
     "fails": "bool",
@@ -27,6 +28,10 @@ COLUMNS = {
     **dict.fromkeys(("normal_x", "normal_y", "normal_z"), NUMBER),
     **dict.fromkeys((f"witness_{body}_{axis}" for body in "ab" for axis in "xyz"), NUMBER),
     "tolerance": NUMBER,
+    "placed_relation": TEXT,
+    **dict.fromkeys(("impact_time", "impact_time_lower"), NUMBER),
+    **dict.fromkeys(("impact_x", "impact_y", "impact_z"), NUMBER),
+    **dict.fromkeys(("impact_pose_before", "impact_pose_after"), NUMBER),
     **dict.fromkeys(("exact_relation", "quality", "rule", "baseline"), TEXT),
     **dict.fromkeys(("reason", "message", "id"), TEXT),
 }
@@ -42,19 +47,28 @@ def row_of(finding: Finding, report: Report) -> dict[str, str | float | bool | N
             ("distance", finding.distance_bounds),
         )
     }
-    witness = finding.witness
+    witness, motion = finding.witness, finding.motion
     vectors = {
         **_parts("mtv", finding.mtv),
         **_parts("normal", finding.normal),
         **_parts("witness_a", witness.a if witness else None),
         **_parts("witness_b", witness.b if witness else None),
+        **_parts("impact", motion.point if motion else None),
+    }
+    times = (motion and motion.time_of_impact) or (None, None)
+    poses = (motion and motion.poses) or (None, None)
+    impact = {
+        "impact_time": times[1],
+        "impact_time_lower": times[0],
+        "impact_pose_before": poses[0],
+        "impact_pose_after": poses[1],
     }
     verdict = {
         "severity": severity(finding),
         "fails": is_failure(finding, report.settings.fail_on),
         "baseline": finding.baseline_state,
     }
-    derived = {**lower, **vectors, **verdict}
+    derived = {**lower, **vectors, **impact, **verdict}
     return {name: derived[name] if name in derived else getattr(finding, name) for name in COLUMNS}
 
 

@@ -25,6 +25,7 @@ from satcheck.audit.words import common_root, counted, rank, with_titles
 from satcheck.cli import exit_codes
 from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.registry import kind_of, pieces
+from satcheck.cli.formats.remarks import codes_counted
 from satcheck.cli.formats.summary import BesideBaseline, config_lines
 from satcheck.cli.formats.tables import (
     ROWS,
@@ -127,7 +128,18 @@ def _summary(seen: Overview) -> list[str]:
     line = line if len(line) <= _MOST else _counts(seen, names=False)
     unchecked = counted(seen.unchecked, "passing asset")
     ruled = [f"No pair of {unchecked} was checked: rules allow them all."] if seen.unchecked else []
-    return [line, *ruled, *seen.beside.lines()]
+    return [line, *ruled, *_warnings(seen), *seen.beside.lines()]
+
+
+def _warnings(seen: Overview) -> list[str]:
+    """`Warnings about 2 passing assets (a.glb, b.glb): 3 open meshes. JSON has all.`"""
+    if not seen.warned:
+        return []
+    more = ", ..." if seen.warned > NAMED else ""
+    about = f"Warnings about {counted(seen.warned, 'passing asset')}"
+    what = f"{codes_counted(seen.warnings)}. JSON has all."
+    line = f"{about} ({', '.join(seen.first_warned)}{more}): {what}"
+    return [line if len(line) <= _MOST else f"{about}: {what}"]
 
 
 def _counts(seen: Overview, *, names: bool) -> str:
@@ -248,6 +260,9 @@ class Overview(Struct):
     folders: int = 0
     compared: int = 0
     accepted: int = 0
+    warned: int = 0
+    first_warned: list[str] = field(default_factory=list)
+    warnings: Counter[str] = field(default_factory=Counter)
     config: dict[str, None] = field(default_factory=dict)
     beside: BesideBaseline = field(default_factory=BesideBaseline)
     shown: list[Asset] = field(default_factory=list)
@@ -293,9 +308,22 @@ class Overview(Struct):
             self.folders += is_folder
             self.unchecked += any(i.code == NOTHING_TO_CHECK for i in asset.report.issues)
             self.lone += not is_folder and len(asset.report.bodies) < 2
+            self._note_warnings(asset)
         self.config |= dict.fromkeys(config_lines([asset.report]))
         self.beside.note(asset.report)
         return asset
+
+    def _note_warnings(self, asset: Asset) -> None:
+        warnings = Counter(
+            issue.code
+            for issue in asset.report.issues
+            if issue.severity == "warning" and issue.state is None
+        )
+        del warnings[NOTHING_TO_CHECK]  # told as such
+        self.warned += bool(warnings)
+        if warnings and self.warned <= NAMED:
+            self.first_warned.append(asset.file)
+        self.warnings += warnings
 
 
 def _is_of_folder(issue: Issue, asset: Asset) -> bool:

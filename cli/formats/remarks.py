@@ -186,14 +186,14 @@ def _issues(report: Report, shown: Sequence[Finding], page: Page) -> Iterator[st
         else:
             more[issue.code] += 1
     if more:
-        yield from fitted(f"{_counts(more)} more: JSON has all", page)
+        yield from fitted(f"{codes_counted(more)} more: JSON has all", page)
     if idle:
-        yield from fitted(f"{_counts(idle)}; none mattered", page)
+        yield from fitted(f"{codes_counted(idle)}; none mattered", page)
     if unused:
         yield from fitted(f"{counted(unused, 'suggested rule')} about no pair of bodies here", page)
 
 
-def _counts(codes: Counter[str]) -> str:
+def codes_counted(codes: Counter[str]) -> str:
     """`19 open meshes, 2 [far-vertex]`"""
     counts = ((count, MESHES.get(code, (f"[{code}]",) * 2)) for code, count in codes.items())
     return ", ".join(counted(count, *words) for count, words in counts)

@@ -39,6 +39,8 @@ MESHES = {
 
 
 _STATES: tuple[BaselineState, ...] = ("accepted", "new", "worse", "undecided")
+_KNOWN: tuple[BaselineState, ...] = ("unchanged", "accepted", "worse", "undecided")
+_UNKNOWN = " It knows none of these: it names assets by their paths from its own folder."
 _UNDECIDED = (
     " An undecided finding has no figure to compare, or one that is too wide or in another unit: "
     "add --depth, --clearance or --volume, or update the baseline."
@@ -151,15 +153,17 @@ class BesideBaseline(Struct):
             self.states.update(finding.baseline_state for finding in report.findings)
 
     def lines(self) -> list[str]:
-        """`Baseline: 2 known findings, 1 new, 1 worse; 1 more passes now: satcheck baseline prune.`
+        """`Baseline: 2 known findings, 1 new; 1 more passes or is gone: satcheck baseline prune.`
         Nothing without a baseline."""
         if not self.judged:
             return []
         parts = [counted(self.states["unchanged"], "known finding")]
         parts += [f"{self.states[s]:,} {s}" for s in _STATES if self.states[s]]
-        passing = counted(self.absent, "more passes", "more pass")
-        gone = f"; {passing} now: satcheck baseline prune" if self.absent else ""
+        absent = counted(self.absent, "more passes or is gone", "more pass or are gone")
+        gone = f"; {absent}: satcheck baseline prune" if self.absent else ""
         advice = _UNDECIDED if self.states["undecided"] else ""
+        if self.states["new"] and not (self.absent or any(self.states[s] for s in _KNOWN)):
+            advice = _UNKNOWN
         return [f"Baseline: {', '.join(parts)}{gone}.{advice}"]
 
 

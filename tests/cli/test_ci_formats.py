@@ -225,6 +225,18 @@ def test_csv_of_assets_in_several_units_has_a_column_of_them() -> None:
     assert named == [("b.glb", "m"), ("a.glb", "mm")]  # the larger overlap first
 
 
+def test_csv_tells_when_and_where_moving_bodies_hit() -> None:
+    assert HIT.motion is not None
+    impact = replace(HIT.motion, point=(1.0, 2.0, 3.0), poses=(1, 2))
+    hit = replace(HIT, b="far", motion=impact)
+    rows = rows_of(render({"all": replace(scene_report(hit), units="mm")}, "csv"))
+    row = rows[-1]
+    assert (row["relation"], row["placed_relation"]) == ("penetrating", "separated")
+    assert (row["impact_time"], row["impact_time_lower"]) == ("0.5", "0.25")
+    assert [row[f"impact_{axis} [mm]"] for axis in "xyz"] == ["1", "2", "3"]
+    assert (row["impact_pose_before"], row["impact_pose_after"]) == ("1", "2")
+
+
 def test_csv_tells_what_a_baseline_accepts() -> None:
     states = ("unchanged", "new", "worse", "undecided", None)
     findings = [replace(PENETRATING, baseline_state=state) for state in states]

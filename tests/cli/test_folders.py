@@ -49,6 +49,17 @@ def test_each_asset_of_a_folder_is_its_own_scene(assets: Path) -> None:
     assert verdicts(ran.out) == {"gripper.glb": "fail", "box.obj": "pass"}
 
 
+def test_warnings_about_assets_that_pass_are_counted(assets: Path) -> None:
+    for name in ("open_box.off", "inside_out.stl"):
+        shutil.copy(SAMPLES / name, assets)
+    ran = satcheck("batch", ".", cwd=assets, env={"COLUMNS": "400"})
+    said = "Warnings about 2 passing assets (inside_out.stl, open_box.off): 1 turned mesh, 1 open"
+    assert said in ran.out
+    (assets / "open_box.off").unlink()
+    (assets / "inside_out.stl").unlink()
+    assert "Warnings" not in satcheck("batch", ".", cwd=assets).out
+
+
 def test_an_unreadable_asset_leaves_the_others_their_answers(assets: Path) -> None:
     (assets / "broken.obj").write_text("f 1 2 3\n")
     (assets / "wrong.toml").write_text('format = "satcheck.scene/1"\nnonsense = 1\n')

@@ -31,10 +31,13 @@ _LENGTHS = (
     *("thickness", "thickness_lower", "depth", "depth_lower", "distance", "distance_lower"),
     *("mtv_x", "mtv_y", "mtv_z"),
 )
+_POINT = ("impact_x", "impact_y", "impact_z")
+_TIME = ("impact_time", "impact_time_lower", "impact_pose_before", "impact_pose_after")
 # In every file, also if they are empty.
 _ALWAYS = ("a", "b", "relation", "severity", "fails")
 _COLUMNS = (
-    *("asset", *_ALWAYS, "undecided", *_LENGTHS, "mtv_verified", "volume", "exact_relation"),
+    *("asset", *_ALWAYS, "undecided", *_LENGTHS, "mtv_verified", "volume"),
+    *(*_TIME, *_POINT, "placed_relation", "exact_relation"),
     *("quality", "rule", "baseline", "reason", "units", "id", "file_a", "file_b"),
 )
 # The begin of a formula; in some countries also in full width.
@@ -82,7 +85,7 @@ def _rows(report: Report) -> Iterator[tuple[tuple[float, ...], dict[str, Any]]]:
 
 def _with_unit(column: str, unit: str | None) -> str:
     """`depth [mm]`"""
-    if unit is None or column not in (*_LENGTHS, "volume"):
+    if unit is None or column not in (*_LENGTHS, *_POINT, "volume"):
         return column
     return f"{column} [{unit}{'^3' if column == 'volume' else ''}]"
 
