@@ -317,7 +317,11 @@ std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const P
   std::vector<std::uint32_t> place(welded.vertices.size());
   std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
   Labels labels = label_components(sealed, edges);
-  const std::vector<std::uint32_t> solids = solids_of(sealed, edges, labels, &budget);
+  // What is a cavity shows where the mesh faces outward. The parts themselves stay as they are.
+  Mesh outward = orient(sealed, &budget);
+  if (outward.triangles.size() != sealed.triangles.size()) outward = sealed;  // without copies
+  const EdgeTable outward_edges(outward.vertices.size(), outward.triangles);
+  const std::vector<std::uint32_t> solids = solids_of(outward, outward_edges, labels, &budget);
   for (std::uint32_t& label : labels.of_triangle) label = solids[label];
   for (const auto& members : labels.members()) {
     if (members.empty()) continue;  // they bound a cavity
