@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from tests.scene import files
 from tests.scene.loading import loaded
 
@@ -49,6 +51,20 @@ def test_a_cavity_stays_a_cavity(tmp_path):
     assert file.health.solid
     assert file.issues == ()
     assert file.mesh.topology().volume == 26.0
+
+
+@pytest.mark.parametrize(("inner", "volume"), [(reverse(files.CUBE), 26.0), (files.CUBE, 28.0)])
+@pytest.mark.parametrize("outer_faces", ["outward", "inward"])
+def test_a_large_part_inside_out_changes_no_part_beside_it(tmp_path, inner, volume, outer_faces):
+    outer = files.CUBE
+    if outer_faces == "inward":
+        outer, inner = reverse(outer), reverse(inner)
+    within = [(1 + x, 1 + y, 1 + z) for x, y, z in files.CUBE_POINTS]
+    around = [(3 * x, 3 * y, 3 * z) for x, y, z in files.CUBE_POINTS]
+    beside = [(10 + 9 * x, 9 * y, 9 * z) for x, y, z in files.CUBE_POINTS]
+    for large in (files.CUBE, reverse(files.CUBE)):
+        parts = joined((around, outer), (within, inner), (beside, large))
+        assert loaded(tmp_path, "a.obj", parts).mesh.topology().volume == 729.0 + volume
 
 
 def test_one_turned_triangle_is_repaired(tmp_path):

@@ -161,26 +161,20 @@ class Nesting {
  public:
   Nesting(const Mesh& mesh, const Labels& labels, const std::vector<Patch>& patches, Budget* budget)
       : mesh_(mesh), labels_(labels), patches_(patches), budget_(budget), on_rim_(mesh.triangles.size(), false) {
-    for (const Patch& patch : patches) {
-      for (const std::uint32_t t : patch.on_rim) on_rim_[t] = true;
+    for (std::uint32_t p = 0; p < patches.size(); ++p) {
+      if (patches[p].solid) solids_.push_back(p);
+      for (const std::uint32_t t : patches[p].on_rim) on_rim_[t] = true;
     }
   }
 
-  // Whether the shell is inside, or on the surface of, other solids. The box test avoids building the tree if no other
-  // solid can contain it.
-  bool is_nested(std::uint32_t patch) {
-    const bool possible = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& other) {
-      spend(budget_, kBoxWork);
-      return &other != &patches_[patch] && other.solid && other.solid_box.contains(patches_[patch].box);
-    });
-    if (!possible) return false;
-    const auto counts = [&](std::uint32_t t) { return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].solid; };
-    std::optional<int> winding;
-    for (const std::uint32_t t : patches_[patch].triangles) {
-      const Corners c = corners(mesh_, t);
-      if ((winding = winding_number(mesh_, tree(), lazy_centroid(c), counts, budget_))) break;
-    }
-    return winding != 0 && !crosses_another(patch);
+  // Whether the shell is inside, or on the surface of, other solids.
+  bool is_nested(std::uint32_t patch) { return winding_around(patch, solids_) != 0 && !crosses_another(patch); }
+
+  // Whether the shell is inside others that are turned, and solid there. It then turns with them: a cavity stays one, and
+  // so does a solid. turned: shells, ascending.
+  bool turns_along(std::uint32_t patch, const std::vector<std::uint32_t>& turned) {
+    return winding_around(patch, turned).value_or(0) < 0 && winding_around(patch, solids_).value_or(0) < 0 &&
+           !crosses_another(patch);
   }
 
   // Whether another patch ends near the boundary of this one, by the boxes of triangles. Both may then be pieces of one
@@ -198,6 +192,26 @@ class Nesting {
   }
 
  private:
+  // The winding number of other solids around the shell; none: it lies on their surface. The box test avoids building the
+  // tree if no other solid can contain it. solids: ascending.
+  std::optional<int> winding_around(std::uint32_t patch, const std::vector<std::uint32_t>& solids) {
+    const bool possible = std::any_of(solids.begin(), solids.end(), [&](std::uint32_t other) {
+      spend(budget_, kBoxWork);
+      return other != patch && patches_[other].solid_box.contains(patches_[patch].box);
+    });
+    if (!possible) return 0;
+    const auto counts = [&](std::uint32_t t) {
+      const std::uint32_t other = labels_.of_triangle[t];
+      return other != patch && std::binary_search(solids.begin(), solids.end(), other);
+    };
+    std::optional<int> winding;
+    for (const std::uint32_t t : patches_[patch].triangles) {
+      const Corners c = corners(mesh_, t);
+      if ((winding = winding_number(mesh_, tree(), lazy_centroid(c), counts, budget_))) break;
+    }
+    return winding;
+  }
+
   const Bvh& tree() {
     if (bvh_.nodes.empty()) bvh_ = build_bvh(mesh_);
     return bvh_;
@@ -207,6 +221,7 @@ class Nesting {
   const Labels& labels_;
   const std::vector<Patch>& patches_;
   Budget* budget_;
+  std::vector<std::uint32_t> solids_;  // ascending
   std::vector<bool> on_rim_;
   Bvh bvh_;
 };
@@ -278,9 +293,15 @@ Mesh orient(const Mesh& mesh, Budget* budget) {
     for (Patch& patch : patches) flip(result, patch);
   }
   Nesting nesting(result, labels, patches, budget);
-  std::vector<std::uint32_t> inside_out;
+  std::vector<std::uint32_t> inside_out, shells;
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
-    if (has_to_turn(result, patches, p, nesting)) inside_out.push_back(p);
+    if (!has_to_turn(result, patches, p, nesting)) continue;
+    inside_out.push_back(p);
+    if (patches[p].shell) shells.push_back(p);
+  }
+  for (std::uint32_t p = 0; !shells.empty() && p < patches.size(); ++p) {
+    const bool stays = patches[p].shell && !std::binary_search(shells.begin(), shells.end(), p);
+    if (stays && nesting.turns_along(p, shells)) inside_out.push_back(p);
   }
   for (const std::uint32_t p : inside_out) flip(result, patches[p]);
   return result;
@@ -296,7 +317,11 @@ std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const P
   std::vector<std::uint32_t> place(welded.vertices.size());
   std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
   Labels labels = label_components(sealed, edges);
-  const std::vector<std::uint32_t> solids = solids_of(sealed, edges, labels, &budget);
+  // What is a cavity shows where the mesh faces outward. The parts themselves stay as they are.
+  Mesh outward = orient(sealed, &budget);
+  if (outward.triangles.size() != sealed.triangles.size()) outward = sealed;  // without copies
+  const EdgeTable outward_edges(outward.vertices.size(), outward.triangles);
+  const std::vector<std::uint32_t> solids = solids_of(outward, outward_edges, labels, &budget);
   for (std::uint32_t& label : labels.of_triangle) label = solids[label];
   for (const auto& members : labels.members()) {
     if (members.empty()) continue;  // they bound a cavity

@@ -1,6 +1,7 @@
 // The parts of solids of random cells: each is a solid with its caves, and together they are the cells.
 #include "mesh/cavities.hpp"
 
+#include "mesh/orient.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/topology.hpp"
 #include "tests/boxes.hpp"
@@ -11,16 +12,17 @@ using namespace satcheck::testing;
 
 namespace {
 
-// Caves often touch the surface around them at a corner, where no edge is common.
+// Caves often touch the surface around them at a corner, where no edge is common. One mesh in two is inside out.
 void caves_belong_to_their_solids() {
   std::mt19937 generator(6);
   std::size_t several = 0;
   for (int round = 0; round < rounds(200); ++round) {
     const Cells cells = random_cells(generator, 5, 0.15 + 0.2 * (round % 5));
-    const std::vector<Mesh> parts = split_components(boundary_of(cells));
+    const Mesh outward = boundary_of(cells);
+    const std::vector<Mesh> parts = split_components(round % 2 == 0 ? outward : reversed(outward));
     several += parts.size() > 1;
     std::vector<Surface> solids;
-    for (const Mesh& part : parts) solids.push_back(make_surface(part, true));
+    for (const Mesh& part : parts) solids.push_back(make_surface(orient(part), true));
     for (int x = 0; x < 5; ++x)
       for (int y = 0; y < 5; ++y)
         for (int z = 0; z < 5; ++z) {

@@ -78,22 +78,18 @@ void stacks() {
     const Topology topology = measure_topology(result);
     CHECK(topology.solid && topology.oriented && topology.triangles == all.triangles.size());
     CHECK(topology.volume > 0);
-    // +1: outward, once the majority of each box has spoken and the sum of all volumes is positive.
-    std::vector<int> wound;
-    double total = 0;
-    for (std::size_t k = 0; k < stack.boxes.size(); ++k) {
-      const double size = 2 * (5.0 - stack.depth[k]);
-      wound.push_back(stack.wound[k] == Wound::inward ? -1 : 1);
-      total += wound.back() * size * size * size;
-    }
-    for (int& w : wound) w = total < 0 ? -w : w;
     int around = 0;  // the winding number of the boxes around
+    int facing = 1;  // -1: the boxes around are turned
     for (std::size_t k = 0; k < stack.boxes.size(); ++k) {
-      if (stack.depth[k] == 0) around = 0;
-      // A box in nothing, or in the cavity of another one, faces outward. A box in material keeps its winding.
-      const bool outward = around == 0 || wound[k] > 0;
+      if (stack.depth[k] == 0) around = 0, facing = 1;
+      // A box with mixed winding faces outward, as most of its triangles do. A box in material turns with the boxes
+      // around it; a box in nothing, or in the cavity of another one, faces outward.
+      const int wound = facing * (stack.wound[k] == Wound::inward ? -1 : 1);
+      const bool turns = around == 0 && wound < 0;
+      if (turns) facing = -facing;
+      const bool outward = turns || wound > 0;
       CHECK((volume_of(result, stack.boxes[k]) > 0) == outward);
-      around += wound[k];
+      around += outward ? 1 : -1;
     }
     // Again, nothing changes.
     const Mesh again = orient(result);
