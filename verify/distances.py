@@ -22,7 +22,7 @@ from satcheck.report.request import Request
 from satcheck.report.values import Relation
 from satcheck.scene.inspect import MOST_AROUND
 from satcheck.verify.bodies import Placed, box_gaps, curve_error
-from satcheck.verify.boundary import contacts_if_apart
+from satcheck.verify.cells import contacts_if_apart
 from satcheck.verify.exact import Rejected, TooMany, dot
 from satcheck.verify.figures import EXACT_WIDTH, Rounding, tolerance_of
 from satcheck.verify.meshes import turns_around
@@ -127,7 +127,7 @@ def check_overlap_of_curves(relation: Relation | None, pair: Pair) -> None:
         return
     if relation != "penetrating":
         raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
-    if not stick_out(pair.a.world, pair.b.world, closer, pair.across):
+    if not stick_out(pair.a, pair.b, closer, pair.across):
         raise Rejected("one body may hold the other, by what its curve is off its polygon")
 
 
