@@ -12,9 +12,8 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.studied_pair import pair_of, two_of
 from satcheck.audit.summary import tool
 from satcheck.core.axes import (
-    EdgePairs,
+    Candidates,
     Hull,
-    candidates,
     corners_of,
     edge_pairs,
     first_parallel,
@@ -22,6 +21,7 @@ from satcheck.core.axes import (
     outline_of,
     shadows,
     unit_of,
+    with_faces,
 )
 from satcheck.core.conventions import Plane, axis_across
 from satcheck.core.conventions import axes_of as axes_in
@@ -178,16 +178,16 @@ def _require_few(a: report.AxesBody, b: report.AxesBody, count: int, limit: int,
 
 
 def axes_shown(
-    a: Hull, b: Hull, pairs: EdgePairs, closer: float | None = None
+    a: Hull, b: Hull, pairs: Candidates, closer: float | None = None
 ) -> list[report.CandidateAxis]:
     """The axes in the order of testing; of parallel candidates the one with the largest gap.
 
     closer: in a plane, how much smaller any gap may be than that of the polygons, because they lie
     within curves; None: in space.
     """
-    made = candidates(a, b, pairs)
-    unit = unit_of(made.normal)
-    rows = zip(made.normal, unit, strict=True)
+    normals, made = with_faces(a, b, pairs)
+    unit = unit_of(normals)
+    rows = zip(normals, unit, strict=True)
     found = [shadows(normal, along, a.corners, b.corners) for normal, along in rows]
     groups: dict[int, list[int]] = {}
     for row, first in enumerate(first_parallel(unit, made.tolerance).tolist()):

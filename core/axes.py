@@ -100,31 +100,19 @@ class Hull(Struct, frozen=True, dict=True):
         return len(np.unique(normals)), len(np.unique(first_parallel(along, off)))
 
 
-class EdgePairs(Struct, frozen=True):
-    """index: (m, 2), an edge of A and one of B. tolerance: (m,), how far each axis may be off,
-    radians. plain: (m,), not of an edge within a face, nor of edges that are parallel within the
-    precision of the input: such an axis means nothing to the eye, and an exact proof may need it.
-    """
-
-    index: Indices
-    tolerance: Floats
-    plain: Flags
-
-    def where(self, kept: Flags) -> EdgePairs:
-        return EdgePairs(self.index[kept], self.tolerance[kept], self.plain[kept])
-
-
 class Candidates(Struct, frozen=True):
-    """In the order of testing: faces of A, faces of B, pairs of edges.
-
-    normal: (m, 3). tolerance, plain: (m,), as of `EdgePairs`. index: (m, 2), the face or edge of A
-    and of B; -1: none.
+    """Of faces and of pairs of edges. index: (m, 2), the face or edge of A and of B; -1: none.
+    tolerance: (m,), how far each axis may be off, radians. plain: (m,), not of an edge within a
+    face, nor of edges that are parallel within the precision of the input: such an axis means
+    nothing to the eye, and an exact proof may need it.
     """
 
-    normal: Integers
-    tolerance: Floats
     index: Indices
+    tolerance: Floats
     plain: Flags
+
+    def where(self, kept: Flags) -> Candidates:
+        return Candidates(self.index[kept], self.tolerance[kept], self.plain[kept])
 
 
 class Shadows(Struct, frozen=True):
@@ -203,7 +191,7 @@ def _edges(corners: Indices) -> tuple[Indices, Indices]:
     return np.column_stack((tails, heads))[chosen], np.column_stack((owner, twin))[chosen]
 
 
-def edge_pairs(a: Hull, b: Hull) -> EdgePairs:
+def edge_pairs(a: Hull, b: Hull) -> Candidates:
     """Return the pairs of edges that can make a face of the difference."""
     index = _crossing(a, b)
     (along_a, off_a), (along_b, off_b) = a.along, b.along
@@ -212,21 +200,21 @@ def edge_pairs(a: Hull, b: Hull) -> EdgePairs:
     i, j = index.T
     off = off_a[i] + off_b[j]
     plain = (i < a.sides) & (j < b.sides) & (sine > off)
-    return EdgePairs(index, np.minimum(off / sine, WORST_TOLERANCE), plain)
+    return Candidates(index, np.minimum(off / sine, WORST_TOLERANCE), plain)
 
 
-def candidates(a: Hull, b: Hull, pairs: EdgePairs) -> Candidates:
-    """Return the face normals, and the axes of pairs of edges."""
+def with_faces(a: Hull, b: Hull, pairs: Candidates) -> tuple[Integers, Candidates]:
+    """Return the normals, (m, 3), of the faces of A, the faces of B and pairs of edges, which is
+    the order of testing, and these candidates."""
     faces = np.full((len(a.face) + len(b.face), 2), -1)
     faces[: len(a.face), 0], faces[len(a.face) :, 1] = a.face, b.face
     ends = (
         side.corners.exact[side.edges[k]] for side, k in zip((a, b), pairs.index.T, strict=True)
     )
     across = np.cross(*(of_edges[:, 1] - of_edges[:, 0] for of_edges in ends))
-    return Candidates(
-        normal=np.concatenate((a.normal, b.normal, across)),
-        tolerance=np.concatenate((a.face_off, b.face_off, pairs.tolerance)),
+    return np.concatenate((a.normal, b.normal, across)), Candidates(
         index=np.concatenate((faces, pairs.index)),
+        tolerance=np.concatenate((a.face_off, b.face_off, pairs.tolerance)),
         plain=np.concatenate((np.full(len(faces), True), pairs.plain)),
     )
 
