@@ -32,8 +32,6 @@ from itertools import pairwise, product
 from operator import mul
 from typing import Any
 
-import numpy as np
-
 from satcheck.verify.exact import (
     Point,
     Rejected,
@@ -101,8 +99,8 @@ def chosen(a: Exact, b: Exact, contacts: Contacts, wanted: Callable[[bool], bool
     touching = {s for s, _ in contacts}
     regions = [
         region
-        for region, vertex in _regions(a, touching)
-        if wanted(b.world.solid and _winding(b, point(a.points[vertex])) != 0)
+        for region in _regions(a, touching)
+        if wanted(b.world.solid and _winding(b, point(a.corners(region[0])[0])) != 0)
     ]
     parts = [slice(FIRST), slice(FIRST, None)]
     return sorted(touching) + [t for part in parts for region in regions for t in region[part]]
@@ -115,20 +113,15 @@ def _winding(solid: Exact, p: Point) -> int:
     return number
 
 
-def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
-    """The remaining triangles, by regions connected through vertices, with a vertex of each
-    region."""
-    left = np.ones(len(a.world.triangles), dtype=bool)
-    left[list(without)] = False
-    index = np.flatnonzero(left)
-    if not index.size:
-        return
-    label = connected(a.world.triangles[index], len(a.world.vertices))
-    of = label[a.world.triangles[index, 0]]
-    order = np.argsort(of, kind="stable")
-    borders = np.flatnonzero(np.diff(of[order])) + 1
-    for region in np.split(index[order], borders):
-        yield region.tolist(), int(a.world.triangles[region[0], 0])
+def _regions(a: Exact, without: set[int]) -> list[list[int]]:
+    """The remaining triangles, by regions connected through vertices."""
+    left = [t for t in range(len(a.world.triangles)) if t not in without]
+    triangles = a.world.triangles[left]
+    labels = connected(triangles, len(a.world.vertices))[triangles[:, 0]]
+    regions: dict[int, list[int]] = {}
+    for t, label in zip(left, labels.tolist(), strict=True):
+        regions.setdefault(label, []).append(t)
+    return list(regions.values())
 
 
 def sheets_among(body: Exact, contacts: Contacts, side: int) -> set[int]:

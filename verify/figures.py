@@ -18,10 +18,10 @@ from satcheck.report.report import OVERLAPS, Finding, finding_id
 from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
-from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Point, Rejected, point, root, sub
 from satcheck.verify.pairs import vector
 from satcheck.verify.surfaces import comes_within
+from satcheck.verify.world import Exact
 
 # An interval of this relative width comes from rounding alone.
 EXACT_WIDTH = Fraction(1, 10**9)
@@ -183,16 +183,11 @@ def shows_direction(finding: Finding, a: Placed, b: Placed) -> bool:
 
 
 def is_on(p: Point, body: Placed, slack: Fraction) -> bool:
-    """Return whether a point is within this distance of the surface, world units."""
+    """Return whether a point is within this distance of the surface, world units; of a curved
+    shape, whether it is inside once it is moved towards the origin, and not moved away."""
     shape = body.exact
-    if isinstance(shape, Curved):
-        return _on_curved(p, shape, slack)
-    return comes_within(shape, shape.at(p), slack, open_=False)
-
-
-def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
-    """Return whether a point is close to the surface of a convex shape: moved towards its origin it
-    is inside, moved away it is not."""
+    if isinstance(shape, Exact):
+        return comes_within(shape, shape.at(p), slack, open_=False)
     step = sub(p, point(shape.image.origin))
     length = _length(step)
     if length == 0:
