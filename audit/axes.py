@@ -12,28 +12,29 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.studied_pair import pair_of, two_of
 from satcheck.audit.summary import tool
 from satcheck.core.axes import (
-    STEPS_OFF,
-    WORST_TOLERANCE,
     Candidates,
-    Floats,
     Hull,
-    Indices,
-    candidates,
-    direction_count,
-    directions,
+    corners_of,
+    edge_pairs,
     first_parallel,
     hull_of,
+    outline_of,
     shadows,
+    unit_of,
+    with_faces,
 )
 from satcheck.core.conventions import Plane, axis_across
 from satcheck.core.conventions import axes_of as axes_in
 from satcheck.core.errors import SatcheckError
+from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report import axes as report
 from satcheck.scene import Scene
 
 # Candidates that are compared in some seconds.
 MOST_EDGE_PAIRS = 10_000_000
 MOST_FACET_PAIRS = 250_000
+# Of a gap that follows from integers: quotients, root and product.
+VALUE_ROUNDOFFS = 8
 
 RELATIONS: dict[str, report.HullRelation] = {
     "separating": "separated",
@@ -42,10 +43,6 @@ RELATIONS: dict[str, report.HullRelation] = {
 }
 # By the sign of the gap.
 _STATES: dict[int, report.AxisState] = {1: "gap", 0: "touch", -1: "overlap"}
-
-
-# Two hulls, or outlines, how many candidates they have, and their axes in the order of testing.
-Compared = tuple[report.AxesBody, report.AxesBody, report.AxisCounts, list[report.CandidateAxis]]
 
 
 def axes_of(
@@ -69,14 +66,14 @@ def axes_of(
         scene = flat_scene(scene, planar, allow_open=allow_open)
     settings = Settings(planar=planar, allow_open=allow_open)
     pair = pair_of(two_of(scene, bodies), settings)
-    hulls = [] if planar else [_polytope(body) for body in (pair.a, pair.b)]
+    first, second = _hulls(pair, planar)
     answer = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), method="gjk")
     relation: report.HullRelation = (
         "indeterminate" if answer.outcome == "undecided" else answer.outcome
     )
-    a, b, counts, axes = (
-        _in_plane(pair, planar) if planar else _in_space(pair, *hulls, relation=relation)
-    )
+    a, b = _stated(pair.a, first, planar), _stated(pair.b, second, planar)
+    closer = pair.closer if planar else None
+    counts, axes = _compared(first, second, relation, (a, b), closer)
     winner = winner_of(axes)
     if pair.closer and winner is None:
         relation = "indeterminate"
@@ -99,6 +96,24 @@ def axes_of(
     )
 
 
+def _hulls(pair: Pair, planar: Plane | None) -> list[Hull]:
+    """Return the hulls, in a plane the convex outlines."""
+    both = pair.a, pair.b
+    if planar is None:
+        polytopes = [_polytope(body) for body in both]
+        made = zip(polytopes, corners_of(*(each.vertices for each in polytopes)), both, strict=True)
+        return [hull_of(polytope, corners, body.resolution) for polytope, corners, body in made]
+    from satcheck.scene.planar.region import convex_region
+
+    outlines = []
+    for body in both:
+        points = convex_region(body.mesh, planar).points
+        outlines.append(np.zeros((len(points), 3)))
+        outlines[-1][:, axes_in(planar)] = points
+    flat = zip(corners_of(*outlines), both, strict=True)
+    return [outline_of(corners, axis_across(planar), body.resolution) for corners, body in flat]
+
+
 def _polytope(body: PlacedBody) -> core.Polytope:
     if body.curved is not None:
         message = "a curved shape has no faces: every direction is a candidate axis"
@@ -110,50 +125,44 @@ def _polytope(body: PlacedBody) -> core.Polytope:
     return hull
 
 
-def _in_space(
-    pair: Pair, first: core.Polytope, second: core.Polytope, *, relation: report.HullRelation
-) -> Compared:
-    """relation: by the check of the two hulls. Pairs of edges that are noise are only looked at
-    where it needs them."""
-    world = np.concatenate((first.vertices, second.vertices))
-    a = hull_of(first, 0, world, pair.a.resolution)
-    b = hull_of(second, first.vertex_count, world, pair.b.resolution)
-    stated = _stated(pair.a, a), _stated(pair.b, b)
+def _stated(body: PlacedBody, hull: Hull, planar: Plane | None) -> report.AxesBody:
+    file, corners = body.body.file, len(hull.corners.world)
+    convex = file.outline is not None if planar else body.convex
+    faces, edges = (0, hull.faces) if planar else (hull.faces, hull.sides)
+    return report.AxesBody(body.id, file.path, convex, corners, faces, edges)
+
+
+def _compared(
+    a: Hull,
+    b: Hull,
+    relation: report.HullRelation,
+    stated: tuple[report.AxesBody, report.AxesBody],
+    closer: float | None,
+) -> tuple[report.AxisCounts, list[report.CandidateAxis]]:
+    """Return how many candidates there are, and the axes in the order of testing. relation: by the
+    check of the two hulls. Pairs of edges that are noise are only looked at where it needs them."""
     count = len(a.edges) * len(b.edges)
     _require_few(*stated, count, MOST_EDGE_PAIRS, "pairs of edges of triangles")
-    made = candidates(a, b)
-    faces = len(a.face) + len(b.face)
-    for kept in (made.plain, made.plain | True):
+    pairs = edge_pairs(a, b)
+    for kept in (pairs.plain, pairs.plain | True):
         what = "pairs of edges that can make a face of their Minkowski difference"
-        _require_few(*stated, int(kept.sum()) - faces, MOST_FACET_PAIRS, what)
-        axes = axes_shown(made.where(kept), world, a.points, b.points)
-        if relation_shown(axes) == relation:
+        _require_few(*stated, int(kept.sum()), MOST_FACET_PAIRS, what)
+        axes = axes_shown(a, b, pairs.where(kept), closer)
+        if closer is not None or relation_shown(axes) == relation:
             break
     else:
-        if first.dimension == second.dimension == 2:
+        if max(a.faces, b.faces) == 2:
             message = "both bodies are flat and in one plane: give --planar with that plane"
             raise SatcheckError("flat-bodies", message)
+    (faces_a, edges_a), (faces_b, edges_b) = a.directions, b.directions
     counts = report.AxisCounts(
         candidates=a.faces + b.faces + a.sides * b.sides,
         edge_pairs=a.sides * b.sides,
-        facet_pairs=int(made.plain.sum()) - faces,
-        directions=(
-            direction_count(a.normal, a.face_off),
-            direction_count(b.normal, b.face_off),
-            _edge_directions(a) * _edge_directions(b),
-        ),
+        facet_pairs=int(pairs.plain.sum()),
+        directions=(faces_a, faces_b, edges_a * edges_b),
         distinct=len(axes),
     )
-    return *stated, counts, axes
-
-
-def _edge_directions(hull: Hull) -> int:
-    return direction_count(hull.along[: hull.sides], hull.edge_off[: hull.sides])
-
-
-def _stated(body: PlacedBody, hull: Hull) -> report.AxesBody:
-    file, corners = body.body.file.path, len(hull.points)
-    return report.AxesBody(body.id, file, body.convex, corners, hull.faces, hull.sides)
+    return counts, axes
 
 
 def _require_few(a: report.AxesBody, b: report.AxesBody, count: int, limit: int, what: str) -> None:
@@ -168,69 +177,43 @@ def _require_few(a: report.AxesBody, b: report.AxesBody, count: int, limit: int,
     raise SatcheckError("too-many-axes", message)
 
 
-def _in_plane(pair: Pair, plane: Plane) -> Compared:
-    """The bodies are prisms; an axis is an edge of the outline turned by 90 degrees."""
-    from satcheck.scene.planar.region import convex_region
-
-    corners = [convex_region(body.mesh, plane).points for body in (pair.a, pair.b)]
-    m, n = map(len, corners)
-    # The corners in the plane, the origin, and the unit vector across the plane.
-    world = np.zeros((m + n + 2, 3))
-    world[:-2, axes_in(plane)] = np.concatenate(corners)
-    world[-1, axis_across(plane)] = 1.0
-    a, b = np.arange(m), m + np.arange(n)
-    tails, heads = np.r_[a, b], np.r_[np.roll(a, -1), np.roll(b, -1)]
-    axes = np.column_stack((tails, heads, np.full(m + n, m + n), np.full(m + n, m + n + 1)))
-    steps = np.repeat((pair.a.resolution, pair.b.resolution), (m, n))
-    length = np.linalg.norm(world[heads] - world[tails], axis=1)
-    off = np.minimum(STEPS_OFF * steps / length, WORST_TOLERANCE)
-    index = np.full((m + n, 2), -1)
-    index[a, 0], index[b, 1] = a, b - m
-    made = Candidates(axes, off, index, plain=np.full(m + n, True))
-    shown = axes_shown(made, world, a, b, closer=pair.closer)
-    unit, _ = directions(world, axes)
-    differ = direction_count(unit[a], off[a]), direction_count(unit[b], off[b]), 0
-    counts = report.AxisCounts(m + n, 0, 0, differ, len(shown))
-    sides = ((body.id, body.body.file, n) for body, n in ((pair.a, m), (pair.b, n)))
-    first, second = (
-        report.AxesBody(id_, file.path, file.outline is not None, corners, 0, corners)
-        for id_, file, corners in sides
-    )
-    return first, second, counts, shown
-
-
 def axes_shown(
-    made: Candidates, world: Floats, a: Indices, b: Indices, *, closer: float | None = None
+    a: Hull, b: Hull, pairs: Candidates, closer: float | None = None
 ) -> list[report.CandidateAxis]:
     """The axes in the order of testing; of parallel candidates the one with the largest gap.
 
-    a, b: the points of each body. closer: in a plane, how much smaller any gap may be than that of
-    the polygons, because they lie within curves; None: in space.
+    closer: in a plane, how much smaller any gap may be than that of the polygons, because they lie
+    within curves; None: in space.
     """
-    found = shadows(world, made.axes, a, b)
-    first = first_parallel(found.direction, made.tolerance)
-    order = np.argsort(first, kind="stable")
-    groups = np.split(order, np.flatnonzero(np.diff(first[order])) + 1)
-    low, high = found.gap - found.off - (closer or 0.0), found.gap + found.off
+    normals, made = with_faces(a, b, pairs)
+    unit = unit_of(normals)
+    rows = zip(normals, unit, strict=True)
+    found = [shadows(normal, along, a.corners, b.corners) for normal, along in rows]
+    groups: dict[int, list[int]] = {}
+    for row, first in enumerate(first_parallel(unit, made.tolerance).tolist()):
+        groups.setdefault(first, []).append(row)
     axes = []
-    for number, group in enumerate(groups, 1):
-        row = group[found.gap[group].argmax()]
-        index_a, index_b = made.index[group[0]].tolist()
-        features = made.index[group[made.plain[group]]].tolist()
-        known = not closer or low[row] > 0 or high[row] < 0
+    for number, (first, group) in enumerate(groups.items(), 1):
+        best = max((found[row] for row in group), key=lambda each: each.gap)
+        index_a, index_b = made.index[first].tolist()
+        off = VALUE_ROUNDOFFS * UNIT_ROUNDOFF * abs(best.gap)
+        low, high = best.gap - off - (closer or 0.0), best.gap + off
+        known = not closer or low > 0 or high < 0
         axes.append(
             report.CandidateAxis(
                 number=number,
                 kind=_kind(index_a, index_b, planar=closer is not None),
                 index_a=None if index_a < 0 else index_a,
                 index_b=None if index_b < 0 else index_b,
-                candidates=len({*map(tuple, features)}),
-                direction=tuple((found.direction[row] + 0.0).tolist()),
-                shadow_a=tuple((found.a[row] + 0.0).tolist()),
-                shadow_b=tuple((found.b[row] + 0.0).tolist()),
-                gap=float(found.gap[row]) + 0.0,
-                gap_bounds=(float(low[row]) + 0.0, float(high[row]) + 0.0),
-                state=_STATES[int(found.sign[row])] if known else "unknown",
+                candidates=len(
+                    {tuple(made.index[row].tolist()) for row in group if made.plain[row]}
+                ),
+                direction=best.direction,
+                shadow_a=best.a,
+                shadow_b=best.b,
+                gap=best.gap,
+                gap_bounds=(low, high),
+                state=_STATES[best.sign] if known else "unknown",
             )
         )
     return axes

@@ -6,14 +6,14 @@ product of an edge of each. If they overlap, the least overlap is along one of t
 whose arcs cross on the Gauss map, because only they make a face of the Minkowski difference
 (D. Gregorius, "The Separating Axis Test between Convex Polyhedra", GDC 2013).
 
-An axis is a row of four points, p q r s: the line along (q - p) x (s - r). So it is known exactly
-although its unit direction is rounded. Float64 with a bound of its error decides most signs of
-gaps; integers decide the others, after J. R. Shewchuk's plan (1997).
+An axis is known exactly, as a normal of integers, although its unit direction is rounded. Float64
+finds the corners that may end a shadow; integers decide between them.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck._native.core import Polytope
+from satcheck.core.conventions import Vector
 from satcheck.core.rounding import UNIT_ROUNDOFF
 
 Floats = NDArray[np.float64]
@@ -38,114 +39,139 @@ ARC_UNCERTAIN = 1e-7
 # Edges closer to parallel than this (radians) have a cross product without a direction:
 # 64 roundoffs, as in core/native/base/rounding.hpp.
 FLAT = 2.0**-47
-# Pairs of edges, or heights, in memory at a time.
+# Pairs of edges in memory at a time.
 BLOCK = 1 << 20
 # In no special position to the axes of any model: projections on it tell most directions apart.
 _GENERIC = np.array([0.5384, 0.3217, 0.7789])
-# Of a component of a float64 cross product, times both lengths: one rounding in each of the two
-# differences, 3 in the product; times the square root of 3 for the vector.
-CROSS_ROUNDOFFS = 12
-# A direction that is off by more (radians) is computed again, from integers.
-TRUSTED_DIRECTION = 1e-12
-# Of a unit direction from these: each component, its norm and the quotient are rounded.
-EXACT_DIRECTION = 8 * UNIT_ROUNDOFF
-# Of a height: a rounded difference from the centre, 3 products, 2 sums; times the root of 3.
-HEIGHT_ROUNDOFFS = 16
-# Of the gap that follows from integers: quotient, root and product.
-VALUE_ROUNDOFFS = 8
+# Of a height, times the largest coordinate: each component of a unit direction is off by 8, and
+# 3 products and 2 sums are rounded, for 3 components.
+HEIGHT_ROUNDOFFS = 64
 
 
-class Hull(Struct, frozen=True):
-    """Faces and edges of a hull; indices into points that both hulls share.
+class Corners(Struct, frozen=True):
+    """Of a body. world: (n, 3). exact: these, times the scale, a power of two."""
 
-    points: (n,). triangles: (t, 4), the axes along their normals. normal: (t, 3), outward. face:
-    (t,), the flat face that each is part of. face_off: (t,), how far each normal may be off,
-    radians. edges: (k, 2), tail and head; those within a face come last, after `sides` others.
-    along: (k, 3), unit. edge_off: (k,). left, right: (k, 3), the normals beside each.
+    world: Floats
+    exact: Integers
+    scale: int
+
+
+class Hull(Struct, frozen=True, dict=True):
+    """Faces and edges of a hull. Of an outline in a plane, its sides are the faces, and it has no
+    edges.
+
+    normal: (t, 3), outward, of triangles. face: (t,), the flat face that each is part of. face_off:
+    (t,), how far each normal may be off, radians. edges: (k, 2), tail and head, corners; those
+    within a face come last, after `sides` others. beside: (k, 2), the triangles left and right of
+    each. step: how finely coordinates are known, in world units.
     """
 
-    points: Indices
-    triangles: Indices
-    normal: Floats
+    corners: Corners
+    normal: Integers
     face: Indices
     face_off: Floats
     edges: Indices
+    beside: Indices
     sides: int
-    along: Floats
-    edge_off: Floats
-    left: Floats
-    right: Floats
+    step: float
 
     @property
     def faces(self) -> int:
         return int(self.face.max()) + 1
 
+    @cached_property
+    def unit(self) -> Floats:
+        """(t, 3), of the normals."""
+        return unit_of(self.normal)
+
+    @cached_property
+    def along(self) -> tuple[Floats, Floats]:
+        """Of the edges: (k, 3), unit; and (k,), how far each may be off, radians."""
+        along = self.corners.world[self.edges[:, 1]] - self.corners.world[self.edges[:, 0]]
+        length = np.linalg.norm(along, axis=1)
+        off = np.minimum(STEPS_OFF * self.step / length, WORST_TOLERANCE)
+        return along / length[:, None], off
+
+    @property
+    def directions(self) -> tuple[int, int]:
+        """How many of its face normals, and of its edges, are not parallel to each other."""
+        along, off = (of_edges[: self.sides] for of_edges in self.along)
+        normals = first_parallel(self.unit, self.face_off)
+        return len(np.unique(normals)), len(np.unique(first_parallel(along, off)))
+
 
 class Candidates(Struct, frozen=True):
-    """In the order of testing: faces of A, faces of B, pairs of edges.
-
-    axes: (m, 4). tolerance: (m,), how far each may be off, radians. index: (m, 2), the face or edge
-    of A and of B; -1: none. plain: (m,), not of an edge within a face, nor of edges that are
-    parallel within the precision of the input: such an axis means nothing to the eye, and an exact
-    proof may need it.
+    """Of faces and of pairs of edges. index: (m, 2), the face or edge of A and of B; -1: none.
+    tolerance: (m,), how far each axis may be off, radians. plain: (m,), not of an edge within a
+    face, nor of edges that are parallel within the precision of the input: such an axis means
+    nothing to the eye, and an exact proof may need it.
     """
 
-    axes: Indices
-    tolerance: Floats
     index: Indices
+    tolerance: Floats
     plain: Flags
 
     def where(self, kept: Flags) -> Candidates:
-        return Candidates(self.axes[kept], self.tolerance[kept], self.index[kept], self.plain[kept])
+        return Candidates(self.index[kept], self.tolerance[kept], self.plain[kept])
 
 
 class Shadows(Struct, frozen=True):
-    """A row for each axis. direction: (m, 3), unit, from A to B. a, b: (m, 2), the least and the
-    greatest world coordinate along it. gap: (m,), negative where the shadows overlap, by how much;
-    off: (m,), how far it may be from the true one. sign: (m,), of the true gap."""
+    """On one axis. direction: unit, from A to B. a, b: the least and the greatest world coordinate
+    along it. gap: negative where the shadows overlap, by how much. sign: of the true gap."""
 
-    direction: Floats
-    a: Floats
-    b: Floats
-    gap: Floats
-    off: Floats
-    sign: NDArray[np.int8]
+    direction: Vector
+    a: tuple[float, float]
+    b: tuple[float, float]
+    gap: float
+    sign: int
 
 
-def hull_of(polytope: Polytope, first: int, world: Floats, step: float) -> Hull:
-    """polytope: a solid, or a polygon in space. first: its first vertex in `world`. step: how
-    finely its coordinates are known, in world units."""
-    flat = polytope.dimension == 2
-    corners = _fans(polytope.vertex_count) if flat else polytope.triangles.astype(np.int64)
-    corners += first
-    triangles = corners[:, [0, 1, 0, 2]]
-    normal, _ = directions(world, triangles)
-    ways = np.roll(world[corners], -1, axis=1) - world[corners]
+def corners_of(*worlds: Floats) -> list[Corners]:
+    """Return the corners of each body, on one scale."""
+    ratios = [[c.as_integer_ratio() for c in world.ravel().tolist()] for world in worlds]
+    scale = max(under for of_one in ratios for _, under in of_one)
+    bodies = []
+    for world, of_one in zip(worlds, ratios, strict=True):
+        exact = np.array([over * (scale // under) for over, under in of_one], dtype=object)
+        bodies.append(Corners(world, exact.reshape(world.shape), scale))
+    return bodies
+
+
+def hull_of(polytope: Polytope, corners: Corners, step: float) -> Hull:
+    """polytope: a solid, or a polygon in space. corners: its vertices. step: how finely their
+    coordinates are known, in world units."""
+    flat, world = polytope.dimension == 2, corners.world
+    triangles = _fans(len(world)) if flat else polytope.triangles.astype(np.int64)
+    p, q, r = (corners.exact[column] for column in triangles.T)
+    normal = np.cross(q - p, r - p)
+    ways = np.roll(world[triangles], -1, axis=1) - world[triangles]
     double_area = np.linalg.norm(np.cross(ways[:, 0], ways[:, 1]), axis=1)
     longest = np.linalg.norm(ways, axis=2).max(axis=1)
     with np.errstate(divide="ignore"):  # of a sliver whose area underflows
-        face_off = np.minimum(STEPS_OFF * step * longest / double_area, WORST_TOLERANCE)
+        off = np.minimum(STEPS_OFF * step * longest / double_area, WORST_TOLERANCE)
     # A hull has one face that looks into a direction.
-    _, face = np.unique(first_parallel(normal, face_off, oriented=True), return_inverse=True)
-    edges, left, right = _edges(corners)
-    within = face[left] == face[right]
-    order = np.argsort(within, kind="stable")
-    edges, left, right = edges[order], left[order], right[order]
-    along = world[edges[:, 1]] - world[edges[:, 0]]
-    length = np.linalg.norm(along, axis=1)
-    return Hull(
-        points=np.arange(first, first + polytope.vertex_count),
-        triangles=triangles,
-        normal=normal,
-        face=face.astype(np.int64),
-        face_off=face_off,
-        edges=edges,
-        sides=int((~within).sum()),
-        along=along / length[:, None],
-        edge_off=np.minimum(STEPS_OFF * step / length, WORST_TOLERANCE),
-        left=normal[left],
-        right=normal[right],
-    )
+    _, face = np.unique(first_parallel(unit_of(normal), off, oriented=True), return_inverse=True)
+    edges, beside = _edges(triangles)
+    within = face[beside[:, 0]] == face[beside[:, 1]]
+    order, sides = np.argsort(within, kind="stable"), int((~within).sum())
+    return Hull(corners, normal, face, off, edges[order], beside[order], sides, step)
+
+
+def outline_of(corners: Corners, across: int, step: float) -> Hull:
+    """corners: of a convex polygon, in order. across: the axis normal to its plane."""
+    ways = np.roll(corners.exact, -1, axis=0) - corners.exact
+    length = np.linalg.norm(np.roll(corners.world, -1, axis=0) - corners.world, axis=1)
+    normal = np.cross(ways, np.eye(3, dtype=np.int64)[across].astype(object))
+    off = np.minimum(STEPS_OFF * step / length, WORST_TOLERANCE)
+    none: Indices = np.empty((0, 2), dtype=np.int64)
+    return Hull(corners, normal, np.arange(len(normal)), off, none, none, 0, step)
+
+
+def unit_of(normal: Integers) -> Floats:
+    """Return (m, 3) unit directions. ZeroDivisionError: a normal is 0."""
+    scaled = (normal / abs(normal).max(axis=1, keepdims=True)).astype(np.float64)
+    unit: Floats = scaled / np.linalg.norm(scaled, axis=1)[:, None]
+    return unit
 
 
 def _fans(corners: int) -> Indices:
@@ -155,51 +181,61 @@ def _fans(corners: int) -> Indices:
     return np.array(front + back, dtype=np.int64)
 
 
-def _edges(corners: Indices) -> tuple[Indices, Indices, Indices]:
+def _edges(corners: Indices) -> tuple[Indices, Indices]:
     """Return the edges of a closed surface, (k, 2), and the triangles left and right of each."""
     tails, heads = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
     owner = np.repeat(np.arange(len(corners)), 3)
     twin = np.empty_like(owner)
     twin[np.lexsort((heads, tails))] = owner[np.lexsort((tails, heads))]
     chosen = tails < heads
-    return np.column_stack((tails, heads))[chosen], owner[chosen], twin[chosen]
+    return np.column_stack((tails, heads))[chosen], np.column_stack((owner, twin))[chosen]
 
 
-def candidates(a: Hull, b: Hull) -> Candidates:
-    """Return the face normals, and the pairs of edges that can make a face of the difference."""
-    rows = _crossing(a, b)
-    sine = np.linalg.norm(np.cross(a.along[rows[:, 0]], b.along[rows[:, 1]]), axis=1)
-    rows, sine = rows[sine > FLAT], sine[sine > FLAT]
-    i, j = rows.T
-    off = a.edge_off[i] + b.edge_off[j]
-    proper = (i < a.sides) & (j < b.sides) & (sine > off)
+def edge_pairs(a: Hull, b: Hull) -> Candidates:
+    """Return the pairs of edges that can make a face of the difference."""
+    index = _crossing(a, b)
+    (along_a, off_a), (along_b, off_b) = a.along, b.along
+    sine = np.linalg.norm(np.cross(along_a[index[:, 0]], along_b[index[:, 1]]), axis=1)
+    index, sine = index[sine > FLAT], sine[sine > FLAT]
+    i, j = index.T
+    off = off_a[i] + off_b[j]
+    plain = (i < a.sides) & (j < b.sides) & (sine > off)
+    return Candidates(index, np.minimum(off / sine, WORST_TOLERANCE), plain)
+
+
+def with_faces(a: Hull, b: Hull, pairs: Candidates) -> tuple[Integers, Candidates]:
+    """Return the normals, (m, 3), of the faces of A, the faces of B and pairs of edges, which is
+    the order of testing, and these candidates."""
     faces = np.full((len(a.face) + len(b.face), 2), -1)
     faces[: len(a.face), 0], faces[len(a.face) :, 1] = a.face, b.face
-    worst = np.minimum(off / sine, WORST_TOLERANCE)
-    return Candidates(
-        axes=np.concatenate((a.triangles, b.triangles, np.hstack((a.edges[i], b.edges[j])))),
-        tolerance=np.concatenate((a.face_off, b.face_off, worst)),
-        index=np.concatenate((faces, rows)),
-        plain=np.concatenate((np.full(len(faces), True), proper)),
+    ends = (
+        side.corners.exact[side.edges[k]] for side, k in zip((a, b), pairs.index.T, strict=True)
+    )
+    across = np.cross(*(of_edges[:, 1] - of_edges[:, 0] for of_edges in ends))
+    return np.concatenate((a.normal, b.normal, across)), Candidates(
+        index=np.concatenate((faces, pairs.index)),
+        tolerance=np.concatenate((a.face_off, b.face_off, pairs.tolerance)),
+        plain=np.concatenate((np.full(len(faces), True), pairs.plain)),
     )
 
 
 def _crossing(a: Hull, b: Hull) -> Indices:
     """Return (k, 2), all pairs of edges but for those whose arcs are surely apart on the Gauss map,
     that of B mirrored."""
-    out_a = np.cross(a.left + a.right, a.along)
-    out_b = np.cross(b.along, b.left + b.right)
-    blocks = []
-    step = max(1, BLOCK // len(b.edges))
+    (left_a, right_a), (left_b, right_b) = (side.unit[side.beside.T] for side in (a, b))
+    (along_a, _), (along_b, _) = a.along, b.along
+    out_a, out_b = np.cross(left_a + right_a, along_a), np.cross(along_b, left_b + right_b)
+    blocks: list[Indices] = [np.empty((0, 2), dtype=np.int64)]
+    step = max(1, BLOCK // max(1, len(b.edges)))
     for first in range(0, len(a.edges), step):
         some = slice(first, first + step)
-        along = a.along[some]
-        on_b = along @ b.left.T, along @ b.right.T
-        on_a = a.left[some] @ b.along.T, a.right[some] @ b.along.T
+        along = along_a[some]
+        on_b = along @ left_b.T, along @ right_b.T
+        on_a = left_a[some] @ along_b.T, right_a[some] @ along_b.T
         apart = _alike(*on_b) | _alike(*on_a)
         # Great circles cross twice: arcs that cross both on different halves do not meet.
         clear = np.min([np.abs(side) for side in (*on_a, *on_b)], axis=0) > ARC_UNCERTAIN
-        apart |= clear & _alike(out_a[some] @ b.along.T, along @ out_b.T)
+        apart |= clear & _alike(out_a[some] @ along_b.T, along @ out_b.T)
         i, j = np.nonzero(~apart)
         blocks.append(np.column_stack((first + i, j)))
     return np.concatenate(blocks)
@@ -237,102 +273,28 @@ def first_parallel(unit: Floats, tolerance: Floats, *, oriented: bool = False) -
     return first
 
 
-def direction_count(unit: Floats, tolerance: Floats) -> int:
-    """Return how many of these are not parallel to each other."""
-    return len(np.unique(first_parallel(unit, tolerance)))
+def shadows(normal: Integers, unit: Floats, a: Corners, b: Corners) -> Shadows:
+    """Return those on one axis, (3,). unit: its direction."""
+    (low_a, high_a), (low_b, high_b) = (_ends(side, normal, unit) for side in (a, b))
+    forward, backward = low_b - high_a, low_a - high_b
+    largest = max(normal.tolist(), key=abs)
+    # The axis leads from A to B. Where both ways are as good, its largest component is positive.
+    if backward > forward or (backward == forward and largest < 0):
+        return shadows(-normal, -unit, a, b)
+    size = float(np.linalg.norm((normal / largest).astype(np.float64)))
+
+    def along(height: int) -> float:
+        return float(Fraction(height, abs(largest) * a.scale)) / size
+
+    x, y, z = (unit + 0.0).tolist()
+    on_a, on_b = (along(low_a), along(high_a)), (along(low_b), along(high_b))
+    return Shadows((x, y, z), on_a, on_b, along(forward), (forward > 0) - (forward < 0))
 
 
-def integers(world: Floats) -> tuple[Integers, int]:
-    """Return the coordinates times a power of two, and this."""
-    ratios = [value.as_integer_ratio() for value in world.ravel().tolist()]
-    scale = max(divisor for _, divisor in ratios)
-    whole = [number * (scale // divisor) for number, divisor in ratios]
-    return np.array(whole, dtype=object).reshape(world.shape), scale
-
-
-def exact_normal(corners: Integers) -> Integers:
-    p, q, r, s = corners
-    (ux, uy, uz), (vx, vy, vz) = q - p, s - r
-    return np.array([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], dtype=object)
-
-
-def directions(world: Floats, axes: Indices) -> tuple[Floats, Floats]:
-    """Return unit vectors along the axes, and how far each may be off (radians): a zero vector, and
-    infinity, where the two differences are parallel."""
-    p, q, r, s = (world[column] for column in axes.T)
-    across = np.cross(q - p, s - r)
-    length = np.linalg.norm(across, axis=1)
-    room = np.linalg.norm(q - p, axis=1) * np.linalg.norm(s - r, axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        off = np.where(length > 0, CROSS_ROUNDOFFS * UNIT_ROUNDOFF * room / length, np.inf)
-        unit = np.where(length[:, None] > 0, across / length[:, None], 0.0)
-    for k in np.flatnonzero(~(off <= TRUSTED_DIRECTION)):
-        normal = exact_normal(integers(world[axes[k]])[0])
-        largest = abs(normal).max()
-        scaled = (normal / (largest or 1)).astype(float)
-        unit[k] = scaled / np.linalg.norm(scaled) if largest else 0.0
-        off[k] = EXACT_DIRECTION if largest else np.inf
-    return unit, off
-
-
-def shadows(world: Floats, axes: Indices, a: Indices, b: Indices) -> Shadows:
-    """Return those of the points `a` and the points `b`; an axis has to have a direction."""
-    unit, off = directions(world, axes)
-    used = world[np.concatenate((a, b))]
-    centre = 0.5 * (used.min(axis=0) + used.max(axis=0))
-    local = world - centre
-    reach = float(np.linalg.norm(used - centre, axis=1).max())
-    heights_off = (HEIGHT_ROUNDOFFS * UNIT_ROUNDOFF + off) * reach
-    ends = np.empty((len(unit), 4))
-    step = max(1, BLOCK // len(used))
-    for first in range(0, len(unit), step):
-        rows = slice(first, first + step)
-        on_a, on_b = _heights(unit[rows], local[a]), _heights(unit[rows], local[b])
-        ends[rows] = np.column_stack((on_a.min(1), on_a.max(1), on_b.min(1), on_b.max(1)))
-    turned = _points_back(unit, ends, heights_off)
-    unit[turned] *= -1.0
-    ends[turned] = -ends[turned][:, [1, 0, 3, 2]]
-    gap, bound = ends[:, 2] - ends[:, 1], 2 * heights_off
-    sign = np.sign(gap).astype(np.int8)
-    unsure = np.flatnonzero(np.abs(gap) <= bound)
-    exact, scale = integers(world) if len(unsure) else (world, 1)
-    for k in unsure:
-        ends_of = (side[_may_end(local[side] @ unit[k], bound[k])] for side in (a, b))
-        sign[k], gap[k] = exact_gap(exact, scale, axes[k], *ends_of)
-        bound[k] = VALUE_ROUNDOFFS * UNIT_ROUNDOFF * abs(gap[k])
-    places = _heights(unit, centre[None, :])
-    return Shadows(unit, ends[:, :2] + places, ends[:, 2:] + places, gap, bound, sign)
-
-
-def _may_end(heights: Floats, off: float) -> Flags:
-    """Return whether each point may be the lowest or the highest. off: of a difference of two."""
-    return np.asarray((heights <= heights.min() + off) | (heights >= heights.max() - off))
-
-
-def exact_gap(
-    exact: Integers, scale: int, axis: Indices, a: Indices, b: Indices
-) -> tuple[int, float]:
-    """Return sign and value of the larger of the two gaps along an axis, B beyond A and A beyond
-    B."""
-    normal = exact_normal(exact[axis])
-    on_a, on_b = ((exact[side] * normal).sum(axis=1) for side in (a, b))
-    gap = max(on_b.min() - on_a.max(), on_a.min() - on_b.max())
-    largest = abs(normal).max()
-    length = float(np.linalg.norm((normal / largest).astype(float)))
-    return (gap > 0) - (gap < 0), float(Fraction(gap, largest * scale)) / length
-
-
-def _points_back(unit: Floats, ends: Floats, off: Floats) -> Flags:
-    """Return whether an axis leads from B to A. Where both ways are as good, its largest component
-    is positive."""
-    forward, backward = ends[:, 2] - ends[:, 1], ends[:, 0] - ends[:, 3]
-    largest = np.take_along_axis(unit, np.abs(unit).argmax(axis=1)[:, None], axis=1)[:, 0]
-    alike = np.abs(forward - backward) <= 4 * off
-    return np.where(alike, largest < 0, backward > forward)
-
-
-def _heights(unit: Floats, points: Floats) -> Floats:
-    """Return (m, n), along each axis. Not by a matrix product: BLAS rounds differently on each
-    machine."""
-    x, y, z = (np.multiply.outer(unit[:, k], points[:, k]) for k in range(3))
-    return np.asarray((x + y) + z)
+def _ends(corners: Corners, normal: Integers, unit: Floats) -> tuple[int, int]:
+    """Return the least and the greatest exact height of corners along a normal."""
+    heights = corners.world @ unit
+    off = HEIGHT_ROUNDOFFS * UNIT_ROUNDOFF * float(np.abs(corners.world).max())
+    lowest = corners.exact[heights <= heights.min() + off]
+    highest = corners.exact[heights >= heights.max() - off]
+    return (lowest * normal).sum(axis=1).min(), (highest * normal).sum(axis=1).max()

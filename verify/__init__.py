@@ -1,4 +1,4 @@
-"""satcheck.verify: a report's verdicts re-checked from the mesh files, without the solver.
+"""satcheck.verify: a report's findings re-checked from the mesh files, without the solver.
 
 It computes in integers and rationals on the float64 coordinates of the files. With the solver it
 shares the readers of files (`satcheck.scene`), and how a verdict follows from findings and rules

@@ -10,10 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import partial
+from functools import cache, partial
 from typing import Any
-
-import numpy as np
 
 from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.report import BodyAnswer
@@ -24,17 +22,15 @@ from satcheck.scene.rules import Selector
 from satcheck.scene.statics import KEYS, BodyRule, BodyTerms, terms_of
 from satcheck.verify.bodies import Placed
 from satcheck.verify.exact import (
-    IntVector,
     NotCertified,
     Rejected,
     dot,
-    normal_of,
     point,
     sign_of,
 )
-from satcheck.verify.pairs import on_body, pair_of, reach, vector
-from satcheck.verify.patches import comes_within
+from satcheck.verify.pairs import on_body, pair_of, vector
 from satcheck.verify.relations import check_within
+from satcheck.verify.surfaces import comes_within
 from satcheck.verify.world import Exact, World
 
 
@@ -54,17 +50,19 @@ def body_terms(
 
 def once(check: Callable[..., None]) -> Callable[..., None]:
     """A check that several answers share: for each of its arguments it is made once."""
-    results: dict[tuple[Any, ...], Rejected | NotCertified | None] = {}
+
+    @cache
+    def refusal(*of: Any) -> Rejected | NotCertified | None:
+        try:
+            check(*of)
+        except (Rejected, NotCertified) as why:
+            return why
+        return None
 
     def again(*of: Any) -> None:
-        if of not in results:
-            try:
-                results[of] = check(*of)  # type: ignore[func-returns-value]
-            except (Rejected, NotCertified) as why:
-                results[of] = why
-        refusal = results[of]
-        if refusal is not None:
-            raise type(refusal)(str(refusal))
+        why = refusal(*of)
+        if why is not None:
+            raise type(why)(str(why))
 
     return again
 
@@ -161,27 +159,12 @@ def _check_beyond_faces(
 def _is_beyond(body: Placed, region: World, limit: float) -> bool:
     """Return whether a point of the body lies farther beyond a face of the convex region than the
     limit, or as far and the limit is not 0."""
-    faces = Exact(region, region.lattice)
-    shape = body.curved or Exact(body.mesh, body.mesh.lattice)
-    for n, at in _planes(faces):
-        far, level = reach(shape, point(n)), Fraction(dot(n, at), 1 << faces.k)
+    faces, shape = Exact(region, region.lattice), body.exact
+    for n, height in faces.planes():
+        far, level = shape.reach(point(n)), Fraction(height, faces.scale)
         if sign_of(far.q - level, [Fraction(limit) ** 2 * dot(n, n)], [far.p]) > 0:
             return True
     return False
-
-
-def _planes(faces: Exact) -> Iterator[tuple[IntVector, IntVector]]:
-    """The plane of each face that has an area, once: its outward normal, and a point of it."""
-    seen = set()
-    for t in range(len(faces.world.triangles)):
-        a, *_ = corners = faces.corners(t)
-        normal = normal_of(corners)
-        if any(normal):
-            divisor = int(np.gcd.reduce(np.array(normal, dtype=object)))
-            x, y, z = (n // divisor for n in normal)
-            if ((x, y, z), dot((x, y, z), a)) not in seen:
-                seen.add(((x, y, z), dot((x, y, z), a)))
-                yield (x, y, z), a
 
 
 def _check_point(finding: InsideFinding, body: World, region: World, tolerance: float) -> None:

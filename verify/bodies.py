@@ -28,7 +28,7 @@ from satcheck.scene.planar.outline import shape_from
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Point, Rejected, point, sub
 from satcheck.verify.meshes import bounds_nothing, is_balanced, is_convex, with_backs
-from satcheck.verify.world import Indices, World, placed
+from satcheck.verify.world import Exact, Indices, World, placed
 
 # What a report states about a readable mesh.
 _OF_A_MESH = ("health", "triangles", "resolution", "convex", "parts", "part_error")
@@ -59,7 +59,7 @@ class Shape:
 
 
 class Missing(Rejected):
-    """A file does not exist."""
+    """A file does not exist: its name, as the report says it."""
 
 
 class Unread(Rejected):
@@ -68,11 +68,10 @@ class Unread(Rejected):
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A body of the report, a mesh in the world or a curved shape, or why it cannot be read.
+    """A body of the report, a mesh in the world or a curved shape, or why it is lost.
 
-    resolution: world units, recomputed. missing: the file that does not exist, as the report names
-    it. surface_tolerance: how far its surface may be off, world units, as the report says. endless:
-    it is a half space.
+    resolution: world units, recomputed. surface_tolerance: how far its surface may be off, world
+    units, as the report says. endless: it is a half space.
     """
 
     id: str
@@ -81,12 +80,15 @@ class Placed:
     shape: Shape | None = None
     resolution: float = 0.0
     static: bool = False
-    reason: str | None = None
-    claims: bool = True  # False: the report states that it is unreadable
+    lost: Rejected | None = None
     curved: Curved | None = None
-    missing: str | None = None
     surface_tolerance: float = 0.0
     endless: bool = False
+
+    @property
+    def claims(self) -> bool:
+        """False: the report states that it is unreadable."""
+        return not isinstance(self.lost, Unread)
 
     @property
     def convex(self) -> bool:
@@ -107,6 +109,11 @@ class Placed:
         if self.world is None:
             raise Rejected(f"{self.id} has no mesh in the world")
         return self.world
+
+    @property
+    def exact(self) -> Curved | Exact:
+        """A mesh on a lattice of its own."""
+        return self.curved or Exact(self.mesh, self.mesh.lattice)
 
     @property
     def bounds(self) -> tuple[Floats, Floats] | None:
@@ -214,7 +221,7 @@ class Bodies:
             mesh = self._files.mesh(FilePart(entry.file, str(self._root / entry.file), entry.path))
             if isinstance(mesh, Refused):
                 absent = mesh.code == "file-not-found"
-                raise Missing("its file is not there") if absent else Rejected(str(mesh))
+                raise Missing(entry.file) if absent else Rejected(str(mesh))
             key: tuple[str, object, bool] = (entry.file, mesh.part, entry.open)
             if key not in self._shapes:
                 allow_open = self._allow_open or entry.open
@@ -257,13 +264,7 @@ def _require_reach(
 
 
 def _lost(entry: BodyReport, why: Rejected) -> Placed:
-    return Placed(
-        *(entry.id, frozenset(entry.groups), None),
-        static=entry.static,
-        reason=str(why),
-        claims=not isinstance(why, Unread),
-        missing=entry.file if isinstance(why, Missing) else None,
-    )
+    return Placed(entry.id, frozenset(entry.groups), None, static=entry.static, lost=why)
 
 
 def _place(body: Body, shape: Shape, pose: tuple[float, ...] | None, entry: BodyReport) -> Placed:

@@ -20,13 +20,14 @@ import numpy as np
 
 from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopeProof, Region
 from satcheck.verify.exact import Floats, Point, Rejected, dot, normal_of, point, sub
-from satcheck.verify.meshes import AT_ONCE, HUGE, ROUNDOFF, TINY, Planes
 from satcheck.verify.pairs import index
-from satcheck.verify.patches import lengths
-from satcheck.verify.surfaces import Mask
+from satcheck.verify.surfaces import TINY, Mask, lengths
 from satcheck.verify.world import Exact, Indices, is_flat
 
 MOST_FACES = 100_000
+ROUNDOFF = 2.0**-53
+HUGE = 1e300  # sums of smaller terms do not overflow
+AT_ONCE = 1 << 16  # planes, times points, whose sides are found
 
 
 def inner_radius_exceeds(
@@ -187,11 +188,16 @@ def _holds(overlap: OverlapSet, parts: Floats, half: float, depth: float) -> Non
                     raise Rejected("a part of a cover is not shown to overlap")
 
 
-class _Facets(Planes):
-    """The planes of the facets of a set. middle: a translation about in their middle.
+class _Facets:
+    """The planes normal . x = height of the facets of a set. middle: a translation about in their
+    middle.
 
     Their corners are rounded, by `off` along each axis at most. What is that far behind the facets
     lies in the set itself: where X + C is part of Y + C, of convex sets, X is part of Y.
+
+    error: how far rounding takes normal . x - height, for translations x in the cover, and corners.
+    A normal is off by 5 roundoffs of the products that it is the difference of, times lines of
+    twice that size; points, sums of products, their difference and half edges of boxes take 32.
     """
 
     def __init__(self, overlap: OverlapSet, half: float) -> None:
@@ -204,7 +210,14 @@ class _Facets(Planes):
         largest = float(np.abs(corners).max())
         self.triangles: Floats = corners[np.array(overlap.difference.faces)]
         self.middle, self.off = corners.mean(axis=0), 2 * ROUNDOFF * largest
-        super().__init__(self.triangles, self.triangles[:, 0], largest + half)
+        e, f = (self.triangles[:, k] - self.triangles[:, 0] for k in (1, 2))
+        self.normals = np.cross(e, f)
+        self.heights = np.einsum("nk,nk->n", self.normals, self.triangles[:, 0])
+        e, f, size = np.abs(e), np.abs(f), largest + half
+        products = e[:, [1, 2, 0]] * f[:, [2, 0, 1]] + e[:, [2, 0, 1]] * f[:, [1, 2, 0]]
+        scale = size * products.sum(axis=1)
+        error = 64 * ROUNDOFF * scale + (1 + size) * TINY
+        self.error: Floats = np.where(scale < HUGE, error, np.inf)
 
     def not_seen(self) -> list[int]:
         """The facets of which the middle may be in front."""

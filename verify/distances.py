@@ -16,17 +16,17 @@ from fractions import Fraction
 
 from msgspec import UnsetType
 
-from satcheck.report.certificate import AxisProof, Certificate, Proof
+from satcheck.report.certificate import Certificate
 from satcheck.report.report import Finding
 from satcheck.report.request import Request
 from satcheck.report.values import Relation
 from satcheck.scene.inspect import MOST_AROUND
 from satcheck.verify.bodies import Placed, box_gaps, curve_error
-from satcheck.verify.boundary import contacts_if_apart
+from satcheck.verify.cells import contacts_if_apart
 from satcheck.verify.exact import Rejected, TooMany, dot
 from satcheck.verify.figures import EXACT_WIDTH, Rounding, tolerance_of
 from satcheck.verify.meshes import turns_around
-from satcheck.verify.pairs import AnyPair, Pair, axis, given, vector
+from satcheck.verify.pairs import AnyPair, Pair, given, vector
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact, stick_out
 
@@ -127,14 +127,8 @@ def check_overlap_of_curves(relation: Relation | None, pair: Pair) -> None:
         return
     if relation != "penetrating":
         raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
-    if not stick_out(pair.a.world, pair.b.world, closer, pair.across):
+    if not stick_out(pair.a, pair.b, closer, pair.across):
         raise Rejected("one body may hold the other, by what its curve is off its polygon")
-
-
-def leaves_gap_of_curves(proof: Proof, pair: AnyPair) -> bool:
-    """Return whether the polygons are as far apart along the axis as the curves may be off them."""
-    closer = pair.closer
-    return not closer or (isinstance(proof, AxisProof) and pair.gap(axis(proof.axis), closer) > 0)
 
 
 def is_within(claim: Claim, length: Fraction, *, open_: bool) -> bool:

@@ -2,38 +2,43 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 from msgspec import UNSET, UnsetType
+from msgspec.structs import replace
 
 from satcheck._version import __version__
 from satcheck.report.regions import Regions
 from satcheck.report.report import (
+    EFFECTS,
     ENOUGH_FAILURES,
     SUPPORT_OPEN,
     UNSUPPORTED,
     Exempt,
     Finding,
+    PairCounts,
+    Report,
     RuleReport,
+    Summary,
     Tool,
 )
 from satcheck.report.request import Request, request_of
 from satcheck.report.rule_book import RuleBook
 from satcheck.report.statics import Statics
-from satcheck.report.verdict import fails
+from satcheck.report.verdict import fails, summarise
 from satcheck.report.verification import Checked, CheckedSupport, Outcome, VerificationReport
 from satcheck.scene.rules import Members
-from satcheck.verify.bodies import Bodies, Placed
+from satcheck.verify.bodies import Bodies, Missing, Placed, Unread
 from satcheck.verify.coverage import CERTIFIED, uncovered
 from satcheck.verify.distances import boxes_apart
 from satcheck.verify.exact import NotCertified, Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding
 from satcheck.verify.published import report_of
-from satcheck.verify.severity import check_summary
 
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}
 SUPPORT_CODES = frozenset((UNSUPPORTED, SUPPORT_OPEN))
@@ -63,7 +68,10 @@ def verify(
     if not report.missing:
         support = tuple(report.check_answers())
         pruned, exempt, left_open = report.check_unlisted()
-        report.check_summary(pruned, left_open)
+        try:
+            report.check_summary(pruned, left_open)
+        except Rejected as why:
+            report.faults.append(str(why))
     outcomes = {f.outcome for f in checked} | {f.outcome for f in support}
     whole = not (report.faults or report.beyond or report.missing)
     return VerificationReport(
@@ -87,10 +95,6 @@ def is_certified(result: VerificationReport, document: Any) -> bool:
     return asked or "not certified" not in outcomes or bool(outcomes & {"accepted", "rejected"})
 
 
-class _NoFile(NotCertified):
-    """The claim may be true, but the file of a body is missing."""
-
-
 class _Report:
     def __init__(self, document: Any, root: Path, *, allow_outside: bool) -> None:
         self.report, self.findings = report_of(document)
@@ -110,10 +114,10 @@ class _Report:
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
         self.listed_apart = 0  # of these, pairs that may be apart by their boxes
-        absent = [body.missing for body in placed if body.missing is not None]
+        absent = [str(body.lost) for body in placed if isinstance(body.lost, Missing)]
         self.missing = tuple(dict.fromkeys(absent))
-        unplaced = [b for b in placed if b.claims and b.reason and b.missing is None]
-        self.faults = [f"{b.id}: {b.reason}" for b in unplaced]
+        unplaced = [b for b in placed if b.lost and not isinstance(b.lost, Missing | Unread)]
+        self.faults = [f"{b.id}: {b.lost}" for b in unplaced]
         self.beyond: list[str] = []
         strangers = [i.body for i in report.issues if i.body not in {None, *self.bodies}]
         self.faults += [f"an issue is about {name}, which is no body" for name in strangers[:1]]
@@ -131,9 +135,10 @@ class _Report:
             return finding
         try:
             proven = self._check(finding)
+        except Missing as why:
+            return Checked(a, b, relation, "no file", f"{why} is not there")
         except NotCertified as why:
-            beyond: Outcome = "no file" if isinstance(why, _NoFile) else "not certified"
-            return Checked(a, b, relation, beyond, str(why))
+            return Checked(a, b, relation, "not certified", str(why))
         except Rejected as why:
             outcome: Outcome = "rejected" if finding.certificate else "not certified"
             return Checked(a, b, relation, outcome, str(why))
@@ -188,8 +193,8 @@ class _Report:
         if self.units[a.id] != self.units[b.id]:
             raise Rejected("its bodies are in different units, or in none that is stated")
         for body in (a, b):
-            if body.missing is not None:
-                raise _NoFile(f"{body.missing} is not there")
+            if isinstance(body.lost, Missing):
+                raise body.lost
         return check_finding(finding, a, b, request)
 
     def request_of(self, a: Placed, b: Placed) -> Request:
@@ -238,15 +243,44 @@ class _Report:
                 self.faults.append(f"{part} cannot be checked: {type(error).__name__}: {error}")
 
     def check_summary(self, pruned: int, left_open: int) -> None:
-        """Checks the summary, unless a finding is ill-formed; then nothing follows from the
-        findings."""
-        findings = [finding for finding in self.findings if isinstance(finding, Finding)]
-        if len(findings) == len(self.findings):
-            counted, listed = self.book.count(), self.listed_apart
-            try:
-                check_summary(self.report, findings, counted, pruned, listed, left_open)
-            except Rejected as why:
-                self.faults.append(str(why))
+        """Rejects a summary that does not follow from the findings. Nothing does if one of them is
+        ill-formed. pruned: pairs without a finding whose boxes are apart. left_open: pairs without
+        a finding that nothing decides."""
+        report, findings = self.report, [f for f in self.findings if isinstance(f, Finding)]
+        if len(findings) < len(self.findings):
+            return
+        total, allowed = self.book.count()
+        stated, bodies = report.summary.pairs, len(report.bodies)
+        indeterminate = left_open + sum(f.relation == "indeterminate" for f in findings)
+        pairs = PairCounts(
+            total=total,
+            pruned=stated.pruned,
+            decided=total - allowed - indeterminate - stated.pruned,
+            allowed=allowed,
+            indeterminate=indeterminate,
+            exempt=bodies * (bodies - 1) // 2 - total,
+        )
+        for key in ("total", "allowed", "indeterminate", "exempt"):
+            if (count := getattr(stated, key)) != (follows := getattr(pairs, key)):
+                raise Rejected(f"the summary counts {count!r} pairs as {key}, not {follows!r}")
+        if stated.pruned != pruned and not (pruned == 0 and stated.pruned <= self.listed_apart):
+            raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
+        summary = replace(report.summary, pairs=pairs)
+        expected = summarise(replace(report, findings=tuple(findings), summary=summary))
+        for key in Summary.__struct_fields__:
+            if getattr(report.summary, key) != (follows := getattr(expected, key)):
+                raise Rejected(f"the summary's {key} that follows from the findings is {follows!r}")
+        _check_effects(report, total)
+        truncated = report.truncated
+        if (0 if truncated is None else truncated.pairs) != pruned + left_open:
+            raise Rejected(f"the findings leave out {pruned + left_open} pairs")
+        # Those that fail have a state if there is a baseline, and no others.
+        for finding in findings:
+            has_state = report.baseline is not None and fails(finding, report.settings.fail_on)
+            if report.baseline and finding.undecided and finding.baseline_state == "accepted":
+                continue
+            if (finding.baseline_state is not None) != has_state:
+                raise Rejected(f"{finding.a} and {finding.b}: the baseline_state is out of place")
 
 
 def _answers(
@@ -278,3 +312,13 @@ def rule_book(exempt: Exempt, rules: Sequence[RuleReport], bodies: Sequence[Plac
         frozenset(exempt.groups),
         check_static=not exempt.static_pairs,
     )
+
+
+def _check_effects(report: Report, total: int) -> None:
+    names = Counter(effect.effect for effect in report.effects)
+    expected = set(EFFECTS) if report.motions else set(EFFECTS) - {"sweep"}
+    if names.keys() != expected or names.total() > len(names):
+        raise Rejected("the list of effects has each of them once")
+    for effect in report.effects:
+        if effect.pairs + sum(effect.not_run.values()) != total:
+            raise Rejected(f"the pairs of the effect {effect.effect} are not all pairs")

@@ -17,10 +17,8 @@ Floats = NDArray[np.float64]
 IntVector = tuple[int, int, int]
 Point = tuple[Fraction, Fraction, Fraction]
 Vector = tuple[Any, Any, Any]  # of integers or rationals
-Pair = tuple[Any, Any]  # coordinates in a plane
 Homogeneous = tuple[int, int, int, int]
 
-SIGNIFICANT_BITS = 53
 ROOT_BITS = 128
 # Bits of the roots of a sum, in turn.
 BITS = (64, 256, 1024, 4096)
@@ -40,28 +38,18 @@ class NotCertified(Exception):
 
 def lattice(*arrays: Floats) -> int:
     """The least k >= 0 such that all these numbers times 2**k are integers."""
-    numbers = np.concatenate([array.ravel() for array in arrays])
-    fractions, exponents = np.frexp(numbers[numbers != 0.0])
-    if not fractions.size:
-        return 0
-    integers = np.ldexp(fractions, SIGNIFICANT_BITS).astype(np.int64)
-    lowest_bit = np.frexp((integers & -integers).astype(np.float64))[1] - 1
-    return max(0, int((SIGNIFICANT_BITS - exponents - lowest_bit).max()))
+    numbers = (c for array in arrays for c in array.ravel().tolist())
+    return max((c.as_integer_ratio()[1] for c in numbers), default=1).bit_length() - 1
 
 
 def integers(array: Floats, k: int) -> list[IntVector]:
     """The rows of an (n, 3) array times 2**k, for a k that makes them integers."""
-    fractions, exponents = np.frexp(array)
-    mantissas = np.ldexp(fractions, SIGNIFICANT_BITS).astype(np.int64).tolist()
-    shifts = (exponents - SIGNIFICANT_BITS + k).tolist()
-    return [
-        (shifted(m[0], s[0]), shifted(m[1], s[1]), shifted(m[2], s[2]))
-        for m, s in zip(mantissas, shifts, strict=True)
-    ]
 
+    def whole(number: float) -> int:
+        over, under = number.as_integer_ratio()
+        return (over << k) // under
 
-def shifted(number: int, by: int) -> int:
-    return number << by if by >= 0 else number >> -by
+    return [(whole(x), whole(y), whole(z)) for x, y, z in array.tolist()]
 
 
 def point(p: Iterable[Any]) -> Point:
@@ -196,27 +184,6 @@ def _foot(points: Sequence[IntVector]) -> list[Fraction] | None:
                 gram[i] = [x - factor * y for x, y in zip(gram[i], gram[k], strict=True)]
     rest = [gram[k][n] / gram[k][k] for k in range(n)]
     return [1 - sum(rest, Fraction()), *rest]
-
-
-def planar_hull(points: Iterable[Pair]) -> list[Pair]:
-    """The corners of the convex hull of points of a plane, counterclockwise, each once; fewer than
-    three where it has no inside. A. M. Andrew, "Another efficient algorithm for convex hulls in two
-    dimensions" (1979)."""
-    chains = []
-    ordered = sorted(set(points))
-    for run in (ordered, ordered[::-1]):
-        chain: list[Pair] = []
-        for p in run:
-            while len(chain) > 1 and turn(chain[-2], chain[-1], p) <= 0:
-                chain.pop()
-            chain.append(p)
-        chains += chain[:-1]
-    return chains
-
-
-def turn(p: Pair, q: Pair, x: Pair) -> Any:
-    """Over 0 where x is on the left of the way from p to q."""
-    return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])
 
 
 def root(square: Fraction, bits: int = ROOT_BITS) -> tuple[Fraction, Fraction]:

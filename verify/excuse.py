@@ -41,8 +41,16 @@ from satcheck.verify.cells import Cell, Contacts, chosen, sides_of
 from satcheck.verify.exact import Floats, Point, Rejected, cross, dot, sub
 from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.pairs import Pair
-from satcheck.verify.patches import SUM_ERROR, TINY, distances, lengths, next_points, slack
-from satcheck.verify.surfaces import Mask, meeting
+from satcheck.verify.surfaces import (
+    SUM_ERROR,
+    TINY,
+    Mask,
+    distances,
+    lengths,
+    meeting,
+    next_points,
+    slack,
+)
 from satcheck.verify.thickness import at_most, holds_ball
 from satcheck.verify.world import Exact, Indices, connected
 

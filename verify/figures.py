@@ -18,10 +18,9 @@ from satcheck.report.report import OVERLAPS, Finding, finding_id
 from satcheck.report.request import Request
 from satcheck.report.values import Vector
 from satcheck.verify.bodies import SAME, Placed
-from satcheck.verify.curved import Curved
-from satcheck.verify.exact import Point, Rejected, root, sub
+from satcheck.verify.exact import Point, Rejected, point, root, sub
 from satcheck.verify.pairs import vector
-from satcheck.verify.patches import comes_within
+from satcheck.verify.surfaces import comes_within
 from satcheck.verify.world import Exact
 
 # An interval of this relative width comes from rounding alone.
@@ -72,11 +71,7 @@ def tolerance_of(a: Placed, b: Placed, request: Request) -> float:
     if request.tolerance is not None:
         return request.tolerance
     axes = [axis for axis in range(3) if axis != request.across]
-    sizes = [
-        math.dist(*(corner[axes].tolist() for corner in body.bounds))
-        for body in (a, b)
-        if body.bounds is not None
-    ]
+    sizes = (math.dist(*(corner[axes] for corner in body.bounds or ())) for body in (a, b))
     written = min(a.resolution + b.resolution, TOUCH_FRACTION * min(sizes))
     return max(written, a.deviation + b.deviation)
 
@@ -118,18 +113,14 @@ def _check_overlap(finding: Finding, rounding: Rounding) -> None:
     missing = [key for key in DEPTH_FIGURES if getattr(finding, key) is None]
     if len(missing) == len(DEPTH_FIGURES):
         return
-    bounds = finding.depth_bounds
-    if (
-        finding.depth is None
-        or bounds is None
-        or finding.mtv is None
-        or finding.normal is None
-        or missing
-    ):
-        raise Rejected(
-            f"a depth comes with its bounds, its direction and its MTV: no {missing[0]!r}"
-        )
-    if not bounds[0] <= bounds[1] == finding.depth:
+    if missing:
+        what = "a depth comes with its bounds, its direction and its MTV"
+        raise Rejected(f"{what}: no {missing[0]!r}")
+    assert finding.depth is not None
+    assert finding.depth_bounds is not None
+    assert finding.mtv is not None
+    assert finding.normal is not None
+    if not finding.depth_bounds[0] <= finding.depth_bounds[1] == finding.depth:
         raise Rejected("the depth is the upper end of its bounds")
     depth, move, normal = Fraction(finding.depth), vector(finding.mtv), _unit(finding.normal)
     # The MTV and the depth may differ by rounding, either way.
@@ -146,12 +137,8 @@ def _check_gap(finding: Finding) -> None:
     there = [key for key in DEPTH_FIGURES if key != "normal" and getattr(finding, key) is not None]
     if there:
         raise Rejected(f"bodies without a common interior have no {there[0]!r}")
-    contacts = finding.contacts
-    if (
-        contacts is not None
-        and finding.exact_relation == "separated"
-        and contacts != Contacts(truncated=contacts.truncated)
-    ):
+    contacts, apart = finding.contacts, finding.exact_relation == "separated"
+    if apart and contacts and contacts != Contacts(truncated=contacts.truncated):
         raise Rejected("bodies that are apart have no contacts")
     if finding.components is not None and finding.components.items:
         raise Rejected("bodies without a common interior have no component of it")
@@ -196,27 +183,20 @@ def shows_direction(finding: Finding, a: Placed, b: Placed) -> bool:
 
 
 def is_on(p: Point, body: Placed, slack: Fraction) -> bool:
-    """Return whether a point is within this distance of the surface, world units."""
-    if body.curved is not None:
-        return _on_curved(p, body.curved, slack)
-    mesh = Exact(body.mesh, body.mesh.lattice)
-    return comes_within(mesh, mesh.at(p), slack, open_=False)
-
-
-def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
-    """Return whether a point is close to the surface of a convex shape: moved towards its origin it
-    is inside, moved away it is not."""
-    x, y, z = map(Fraction, shape.image.origin)
-    step = p[0] - x, p[1] - y, p[2] - z
+    """Return whether a point is within this distance of the surface, world units; of a curved
+    shape, whether it is inside once it is moved towards the origin, and not moved away."""
+    shape = body.exact
+    if isinstance(shape, Exact):
+        return comes_within(shape, shape.at(p), slack, open_=False)
+    step = sub(p, point(shape.image.origin))
     length = _length(step)
     if length == 0:
         return False
-    share = slack / length
-
-    def at(scale: Fraction) -> Point:
-        return x + scale * step[0], y + scale * step[1], z + scale * step[2]
-
-    return shape.side(at(1 - share)) >= 0 >= shape.side(at(1 + share))
+    inward, outward = (
+        point(c + share * along for c, along in zip(p, step, strict=True))
+        for share in (-slack / length, slack / length)
+    )
+    return shape.side(inward) >= 0 >= shape.side(outward)
 
 
 def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rounding) -> None:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from math import inf
 
 import numpy as np
 from msgspec import UnsetType
+from msgspec.structs import replace
 
-from satcheck.report.certificate import ExactVector, Proof, SurfacesProof
-from satcheck.report.judge import named
-from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.certificate import AxisProof, ExactVector, Proof, SurfacesProof
+from satcheck.report.judge import by_rule, disputed, judged, named
+from satcheck.report.report import CROSS_CHECK, OVERLAPS, Finding
 from satcheck.report.request import Request
 from satcheck.verify.bodies import Placed
 from satcheck.verify.depth import depth_is_at_least, inner_radius_exceeds
@@ -21,7 +23,7 @@ from satcheck.verify.distances import (
     check_overlap_of_curves,
     check_pieces,
     is_within,
-    leaves_gap_of_curves,
+    keeps,
     prove_apart,
     spanned,
 )
@@ -37,9 +39,10 @@ from satcheck.verify.figures import (
 )
 from satcheck.verify.pairs import Pair, any_pair_of, axis, given, prisms, vector
 from satcheck.verify.relations import prove, prove_free
-from satcheck.verify.severity import check_severity
 from satcheck.verify.thickness import at_most, holds_ball
 from satcheck.verify.world import stick_out
+
+WIDER = 1 + EXACT_WIDTH  # the share of a limit that rounding is granted
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +56,8 @@ class Proven:
 
 def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> Proven:
     """Rejects an unproven finding of two readable bodies."""
-    if a.reason is not None or b.reason is not None:
-        raise Rejected(a.reason or b.reason or "a body is missing")
+    if lost := a.lost or b.lost:
+        raise Rejected(str(lost))
     if finding.certificate is None:
         raise Rejected("it has no certificate")
     check_id(finding)
@@ -86,7 +89,7 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     if finding.relation in OVERLAPS and most is not None and most + slack < tolerance:
         raise Rejected("the overlap is within the tolerance: the bodies touch")
     _check_name(claim, both_ends=both_ends, mtv=mtv)
-    check_severity(claim, most, thickest)
+    _check_severity(claim, most, thickest)
     thick = Fraction(finding.thickness or 0)
     ball = isinstance(pair, Pair) and finding.thickness_bounds is not None and not pair.closer
     shown = {
@@ -153,7 +156,7 @@ def _prove_relation(claim: Claim, shares_ball: bool) -> bool:
             check_overlap_of_curves(relation, ends)
     if relation == "penetrating" and isinstance(proof, SurfacesProof) and shares_ball:
         assert isinstance(pair, Pair)
-        if stick_out(pair.a.world, pair.b.world, Fraction(0), across):
+        if stick_out(pair.a, pair.b, Fraction(0), across):
             return False
     beyond = claim.tolerance if claim.finding.relation == "separated" else Fraction(0)
     return prove(relation, proof, ends, max(beyond, pair.closer), claim.least_gap + pair.closer)
@@ -283,5 +286,32 @@ def prove_way_out(move: Point, proof: Proof, a: Placed, b: Placed) -> None:
         check_holes(Fraction(0), moved, b)
     pair = any_pair_of(moved, b)
     prove_free(proof, pair)
-    if not leaves_gap_of_curves(proof, pair):
+    closer = pair.closer  # curves may be as far off their polygons
+    if closer and not (isinstance(proof, AxisProof) and pair.gap(axis(proof.axis), closer) > 0):
         raise Rejected("the way out is shown of polygons alone, not of the curves")
+
+
+def _check_severity(claim: Claim, depth: Fraction | None, thickness: Fraction | None) -> None:
+    """Rejects a severity, a rule or an `undecided` that does not follow. depth, thickness: proven
+    upper bounds; None: there is none. That an overlap is within its limit, or a gap keeps its
+    clearance, has to be proven. That it is not follows from the figures of the finding. Volumes are
+    not certified."""
+    finding, request = claim.finding, claim.request
+    kept, overlap = None, finding.relation in OVERLAPS
+    if request.clearance and not overlap and finding.relation != "near":
+        kept = keeps(claim)
+    judgement = judged(finding, replace(request, severity=None), (0.0, inf), kept)
+    if overlap and judgement.severity == "note":
+        limits = request.max_depth, request.max_thickness, request.max_volume
+        for limit, bound in zip(limits, (depth, thickness, None), strict=True):
+            if limit is not None and not (bound is not None and bound <= Fraction(limit) * WIDER):
+                raise Rejected("that it is within its limits is not certified")
+    judgement = by_rule(judgement, request)
+    if any(stage.stage == CROSS_CHECK and stage.result == "disagrees" for stage in finding.plan):
+        judgement = disputed(judgement, None)
+    follows = judgement.severity, judgement.undecided, judgement.rule
+    if (finding.severity, finding.undecided, finding.rule) != follows:
+        raise Rejected(
+            f"its severity is {judgement.severity!r} by the rule {judgement.rule!r}, "
+            f"and what is undecided {judgement.undecided!r}"
+        )

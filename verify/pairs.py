@@ -21,7 +21,7 @@ from satcheck.report.certificate import Exact as Number
 from satcheck.report.values import Relation
 from satcheck.verify.bodies import Placed, curve_error
 from satcheck.verify.curved import Curved
-from satcheck.verify.exact import Point, Reach, Rejected, dot, point, sign_of, sub
+from satcheck.verify.exact import Point, Rejected, dot, point, sign_of, sub
 from satcheck.verify.world import Exact, World, is_flat
 
 Part = TypeVar("Part")
@@ -96,14 +96,14 @@ class AnyPair:
 
     def gap(self, n: Point, length: Fraction = Fraction(0)) -> int:
         """The sign of the gap along n, from A to B, less a length: over 0 the axis separates."""
-        forth, back = reach(self.a, n), reach(self.b, (-n[0], -n[1], -n[2]))
+        forth, back = self.a.reach(n), self.b.reach((-n[0], -n[1], -n[2]))
         square = length * length * dot(n, n)
         less = [forth.p, back.p, *([square] if length > 0 else ())]
         return sign_of(-forth.q - back.q, less, [square] if length < 0 else ())
 
     def lead(self, n: Point) -> int:
         """The sign of what A reaches beyond B along n."""
-        mine, other = reach(self.a, n), reach(self.b, n)
+        mine, other = self.a.reach(n), self.b.reach(n)
         return sign_of(mine.q - other.q, [other.p], [mine.p])
 
     def points(self, ends: Ends) -> tuple[Point, Point]:
@@ -136,17 +136,10 @@ def any_pair_of(a: Placed, b: Placed) -> AnyPair:
         return pair_of(a, b, a.mesh, b.mesh)
     bodies: list[Curved | Exact] = []
     for body in (a, b):
-        if body.curved is None and (not body.convex or is_flat(body.mesh.vertices[body.mesh.used])):
+        if body.curved is None and (not body.convex or is_flat(body.mesh.used[1])):
             raise Rejected("a curved shape is certified against convex bodies only")
-        bodies.append(body.curved or Exact(body.mesh, body.mesh.lattice))
+        bodies.append(body.exact)
     return AnyPair(bodies[0], bodies[1], (a, b))
-
-
-def reach(body: Curved | Exact, n: Point) -> Reach:
-    """How far the body reaches along n, times the length of n."""
-    if isinstance(body, Curved):
-        return body.reach(n)
-    return Reach(Fraction(body.extent(n)) / body.scale)
 
 
 def _point_of(end: OnBody, body: Curved | Exact) -> Point:

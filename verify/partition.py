@@ -42,6 +42,7 @@ FEW = 32
 # The corners of each face of a box, by their places in a product of its ends, each edge run once in
 # either direction.
 BOX = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 Polygon = list[Homogeneous]
 Ends = tuple[Floats, Floats]
 
@@ -65,15 +66,9 @@ class Frame:
         limit = dot(across, self.origin) + Fraction(height) * self.scale
         return half_space(across, limit)
 
-    def below(self, axis: int, end: float) -> Homogeneous:
-        """The points with p[axis] <= end."""
-        limit = self.along(axis, end)
-        x, y, z = (limit.denominator if k == axis else 0 for k in range(3))
-        return x, y, z, limit.numerator
-
     def box(self, low: Sequence[float], high: Sequence[float]) -> list[Homogeneous]:
-        ends = enumerate(zip(low, high, strict=True))
-        sides = [(self.below(k, y), opposite(self.below(k, x))) for k, (x, y) in ends]
+        ends = zip(UNITS, low, high, strict=True)
+        sides = [(self.behind(n, y), opposite(self.behind(n, x))) for n, x, y in ends]
         return [side for both in sides for side in both]
 
 
@@ -167,10 +162,7 @@ class Partition:
             raise Rejected("a cell is halved beside it")
         below = replace(cell, high=_with(cell.high, axis, place))
         above = replace(cell, low=_with(cell.low, axis, place))
-        if cell.faces is None:
-            return [self._narrowed(below), self._narrowed(above)]
-        side = self.frame.below(axis, place)
-        return [self._clipped(below, side), self._clipped(above, opposite(side))]
+        return self._clipped(below, above, self.frame.behind(UNITS[axis], place))
 
     def _cut(self, cell: Cell | None, cut: tuple[values.Vector, float] | None) -> list[Cell | None]:
         """What is behind a plane, and what is in front of it."""
@@ -182,14 +174,20 @@ class Partition:
             corners = cell.corners(self.frame)
             cell = replace(cell, faces=[[corners[v] for v in face] for face in BOX])
         side = self.frame.behind(*cut)
-        halves = [(replace(cell, cuts=(*cell.cuts, s)), s) for s in (side, opposite(side))]
-        return [self._clipped(half, space) for half, space in halves]
+        below, above = (replace(cell, cuts=(*cell.cuts, s)) for s in (side, opposite(side)))
+        return self._clipped(below, above, side)
 
-    def _clipped(self, cell: Cell, space: Homogeneous) -> Cell | None:
-        """A half, that the faces of the whole are clipped to."""
-        assert cell.faces is not None
-        faces = clip(cell.faces, space)
-        return None if faces is None else self._narrowed(replace(cell, faces=faces))
+    def _clipped(self, below: Cell, above: Cell, side: Homogeneous) -> list[Cell | None]:
+        """The halves of a cell, of whose faces each takes what is on its side."""
+        halves: list[Cell | None] = []
+        for half, space in ((below, side), (above, opposite(side))):
+            if half.faces is None:
+                halves.append(self._narrowed(half))
+            else:
+                faces = clip(half.faces, space)
+                part = None if faces is None else replace(half, faces=faces)
+                halves.append(part and self._narrowed(part))
+        return halves
 
     def _narrowed(self, cell: Cell) -> Cell:
         """Without triangles that do not enter it any more, if there are many."""

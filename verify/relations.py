@@ -20,14 +20,21 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.values import Relation
-from satcheck.verify.boundary import contacts_if_apart, meet, no_crossing
-from satcheck.verify.cells import Contacts, Sides, chosen, sheets_among, sides_of
+from satcheck.verify.cells import (
+    Contacts,
+    Sides,
+    chosen,
+    contacts_if_apart,
+    meet,
+    no_crossing,
+    sheets_among,
+    sides_of,
+)
 from satcheck.verify.curved import Curved
 from satcheck.verify.depth import inner_radius_exceeds
 from satcheck.verify.exact import (
     Rejected,
     cross,
-    dot,
     half_spaces,
     height,
     homogeneous,
@@ -119,16 +126,15 @@ def _nested(outer: Curved | Exact, inner: Curved | Exact) -> None:
     if isinstance(outer, Curved):
         if isinstance(inner, Curved):
             raise Rejected("of two curved shapes it is not certified that one holds the other")
-        used = (inner.points[k] for k in inner.world.used.tolist())
+        used = (inner.points[k] for k in inner.world.used[0].tolist())
         if not all(outer.side(point(Fraction(c, inner.scale) for c in p)) > 0 for p in used):
             raise Rejected("a vertex does not lie inside the curved shape")
         return
     if isinstance(inner, Exact):
         raise Rejected("of two meshes the surfaces show that one holds the other")
-    for corners in map(outer.corners, range(len(outer.world.triangles))):
-        n = normal_of(corners)
-        most, limit = inner.reach(point(n)), Fraction(dot(n, corners[0]), outer.scale)
-        if any(n) and sign_of(limit - most.q, [most.p]) <= 0:
+    for n, limit in outer.planes():
+        most = inner.reach(point(n))
+        if sign_of(Fraction(limit, outer.scale) - most.q, [most.p]) <= 0:
             raise Rejected("the curved shape is not behind each face")
     if not outer.winding(outer.at(inner.image.origin)):
         raise Rejected("the curved shape lies outside of the mesh")

@@ -1,4 +1,5 @@
-"""Which triangles of two surfaces meet: all pairs with near boxes, each decided exactly."""
+"""Which triangles of two surfaces meet: all pairs with near boxes, each decided exactly; and how
+far points are from triangles."""
 
 from __future__ import annotations
 
@@ -17,6 +18,7 @@ from satcheck.verify.exact import (
     dot,
     half_spaces,
     homogeneous,
+    integers,
     nearest_to_origin,
     normal_of,
     sub,
@@ -26,6 +28,12 @@ from satcheck.verify.world import Corners, Exact, Indices
 BLOCK = 4096  # pairs compared at once
 MOST_PAIRS = 50_000_000  # with more pairs a check would take too long
 Mask = NDArray[np.bool_]
+# How far rounding takes the distance of a point and a triangle, or a plane, of the longest line
+# from the point to a corner: fewer than 60 roundings in the point next to it and in its length.
+DISTANCE_ERROR = 2.0**-46
+TINY = 2.0**-1000  # more than what underflow takes
+# How far rounding takes a weighted sum, of the sum of its terms without their signs.
+SUM_ERROR = 2.0**-46
 
 
 def near_pairs(
@@ -110,10 +118,8 @@ def _apart(p: Floats, q: Floats, reach: float) -> Mask:
     """Whether one of these directions proves that triangles (n, 3, 3) are more than reach apart:
     normals, products of edges, edges projected onto either face, lines between corners."""
     done = np.zeros(len(p), dtype=bool)
-    e, f = np.roll(p, -1, axis=1) - p, np.roll(q, -1, axis=1) - q
     with np.errstate(all="ignore"):
-        n, m = np.cross(e[:, 0], e[:, 1]), np.cross(f[:, 0], f[:, 1])
-        for axes in _directions(p, q, e, f, n, m):
+        for axes in _directions(p, q):
             left = ~done
             if not left.any():
                 break
@@ -121,20 +127,16 @@ def _apart(p: Floats, q: Floats, reach: float) -> Mask:
     return done
 
 
-def _directions(
-    p: Floats, q: Floats, e: Floats, f: Floats, n: Floats, m: Floats
-) -> Iterator[Floats]:
+def _directions(p: Floats, q: Floats) -> Iterator[Floats]:
+    e, f = np.roll(p, -1, axis=1) - p, np.roll(q, -1, axis=1) - q
+    n, m = np.cross(e[:, 0], e[:, 1]), np.cross(f[:, 0], f[:, 1])
     yield n
     yield m
-    for i in range(3):
-        for j in range(3):
-            yield np.cross(e[:, i], f[:, j])
+    yield from (np.cross(e[:, i], f[:, j]) for i in range(3) for j in range(3))
     for i in range(3):
         yield np.cross(n, e[:, i])
         yield np.cross(m, f[:, i])
-    for i in range(3):
-        for j in range(3):
-            yield q[:, j] - p[:, i]
+    yield from (q[:, j] - p[:, i] for i in range(3) for j in range(3))
 
 
 def _separates(axes: Floats, p: Floats, q: Floats, reach: float) -> Mask:
@@ -164,3 +166,78 @@ def common(a: Corners, b: Corners) -> list[Point]:
         if not region:
             break
     return [cartesian(p) for p in region]
+
+
+def comes_within(body: Exact, p: Point, length: Fraction, *, open_: bool) -> bool:
+    """Whether the surface of a body comes within a length, world units, of a point of the lattice.
+    open_: or nearer than that."""
+    world, scale = body.world, body.scale
+    at = np.array([float(Fraction(c) / scale) for c in p])
+    radius = up(length) + float(lengths(np.spacing(np.abs(at))))
+    gaps = np.maximum(np.maximum(world.low - at, at - world.high), 0.0)
+    near = np.flatnonzero(~(lengths(gaps) > radius * (1 + SUM_ERROR)))
+    least, _ = distances(at, world.vertices[world.triangles[near]])
+    most = (length * scale) ** 2
+    for t in near[least < radius].tolist():
+        i, j, k = integers(world.vertices[world.triangles[t]], body.k)
+        squared = squared_distance(p, (i, j, k))
+        if squared < most or (squared == most and not open_):
+            return True
+    return False
+
+
+def squared_distance(p: Point, triangle: Corners) -> Fraction:
+    """Exactly."""
+    x, y, z, w = homogeneous(p)
+    spokes = [(v[0] * w - x, v[1] * w - y, v[2] * w - z) for v in triangle]
+    foot, _ = nearest_to_origin(spokes)
+    return Fraction(dot(foot, foot)) / (w * w)
+
+
+def next_points(spokes: Floats) -> Floats:
+    """Points of triangles (n, 3, 3) that are about next to the origin, (n, 3): on the nearest edge,
+    or the foot of the perpendicular."""
+    heads = np.roll(spokes, -1, axis=1)
+    along = heads - spokes
+    with np.errstate(all="ignore"):
+        share = -_dots(spokes, along) / _dots(along, along)
+        share = np.clip(np.nan_to_num(share), 0.0, 1.0)
+        feet = spokes + share[..., None] * along
+        nearest = _dots(feet, feet).argmin(axis=1)
+        best = np.take_along_axis(feet, nearest[:, None, None], axis=1)[:, 0]
+        normal = np.cross(along[:, 0], along[:, 1])
+        # The part of each triangle that the origin and an edge span, seen along the normal.
+        parts = _dots(np.cross(spokes, heads), normal[:, None])
+        inside = np.asarray((parts > 0).all(axis=1))
+        weights = np.roll(parts, -1, axis=1) / parts.sum(axis=1, keepdims=True)
+        foot = np.einsum("nk,nkj->nj", weights, spokes)
+    chosen: Floats = np.where(inside[:, None], foot, best)
+    return chosen
+
+
+def distances(point: Floats, triangles: Floats) -> tuple[Floats, Floats]:
+    """Bounds of the distances of a point (3,) from triangles (n, 3, 3), (n,)."""
+    spokes = triangles - point
+    nearest, error = next_points(spokes), slack(spokes)
+    most = lengths(nearest)
+    with np.errstate(all="ignore"):
+        heights = np.einsum("nkj,nj->nk", spokes, nearest / most[:, None]).min(axis=1)
+    least = np.nan_to_num(heights - error, nan=0.0)
+    return np.maximum(least, 0.0), most + error
+
+
+def slack(spokes: Floats) -> Floats:
+    """How far rounding takes a length that is computed from lines to corners, (n, m, 3), (n,)."""
+    longest: Floats = lengths(spokes).max(axis=1)
+    return DISTANCE_ERROR * longest + TINY
+
+
+def lengths(p: Floats) -> Floats:
+    """The lengths of vectors (..., 3), a few roundoffs off. Their squares may be no floats."""
+    lengths: Floats = np.hypot(np.hypot(p[..., 0], p[..., 1]), p[..., 2])
+    return lengths
+
+
+def _dots(p: Floats, q: Floats) -> Floats:
+    products: Floats = np.einsum("...k,...k->...", p, q)
+    return products

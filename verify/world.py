@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
+from math import gcd
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from satcheck.verify.exact import (
     Homogeneous,
     IntVector,
     Point,
+    Reach,
     Rejected,
     Vector,
     cross,
@@ -55,9 +57,11 @@ class World:
         return self.low.min(axis=0), self.high.max(axis=0)
 
     @cached_property
-    def used(self) -> Indices:
-        """The vertices that triangles have."""
-        return np.flatnonzero(np.bincount(self.triangles.ravel()))
+    def used(self) -> tuple[Indices, Floats, float]:
+        """The vertices that triangles have: their numbers, their places, the largest coordinate."""
+        used = np.flatnonzero(np.bincount(self.triangles.ravel()))
+        points = self.vertices[used]
+        return used, points, float(np.abs(points).max())
 
     @cached_property
     def lattice(self) -> int:
@@ -68,7 +72,7 @@ class World:
         return World(self.vertices + np.array(offset), self.triangles, self.solid)
 
 
-def stick_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
+def stick_out(a: Exact, b: Exact, closer: Fraction, across: int | None) -> bool:
     """Return whether each body sticks out of the box of the other by more than a length. across: an
     axis along which that does not count.
 
@@ -77,20 +81,15 @@ def stick_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
     return _sticks_out(a, b, closer, across) and _sticks_out(b, a, closer, across)
 
 
-def _sticks_out(a: World, b: World, closer: Fraction, across: int | None) -> bool:
+def _sticks_out(a: Exact, b: Exact, closer: Fraction, across: int | None) -> bool:
     axes = [k for k in range(3) if k != across]
-    least, most = b.bounds
-    is_out = ((a.low < least) | (a.high > most))[:, axes].any(axis=1)
-    for t in np.flatnonzero(is_out).tolist():
-        low, high = a.low[t], a.high[t]
-        steps = ((least[k], low[k], high[k], most[k]) for k in axes)
-        if any(
-            max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > closer
-            for p, q, r, s in steps
-        ):
-            corners = a.vertices[a.triangles[t]]
-            if any(normal_of(integers(corners, lattice(corners)))):
-                return True
+    low, high = b.world.bounds
+    is_out = ((a.world.low < low) | (a.world.high > high))[:, axes].any(axis=1)
+    least, most = integers(np.array([low, high]), b.k)
+    for corners in map(a.corners, np.flatnonzero(is_out).tolist()):
+        beyond = max(max(least[k] - p[k], p[k] - most[k]) for p in corners for k in axes)
+        if beyond > closer * a.scale and any(normal_of(corners)):
+            return True
     return False
 
 
@@ -156,15 +155,11 @@ def connected(triangles: Indices, count: int) -> Indices:
 
 def is_flat(points: Floats) -> bool:
     """Whether they lie in one plane, exactly."""
-    if len(points) == 0:
-        return True
     exact = integers(points, lattice(points))
     spokes = [sub(p, exact[0]) for p in exact]
-    first = next((v for v in spokes if any(v)), None)
-    if first is None:
-        return True
-    normal = next((n for v in spokes if any(n := cross(first, v))), None)
-    return normal is None or all(dot(normal, v) == 0 for v in spokes)
+    along = next(filter(any, spokes), (0, 0, 0))
+    normal = next((n for v in spokes if any(n := cross(along, v))), (0, 0, 0))
+    return all(dot(normal, v) == 0 for v in spokes)
 
 
 def welded(vertices: Floats, triangles: Indices) -> tuple[Floats, Indices]:
@@ -211,25 +206,45 @@ class Exact:
 
     def farthest(self, normal: Sequence[Any]) -> tuple[int, Any]:
         """A vertex that lies farthest along the normal, and normal . vertex, exactly."""
-        used = self.world.used
-        points = self.world.vertices[used]
+        used, points, largest = self.world.used
         along = [k for k, c in enumerate(normal) if c]
         if len(along) == 1:  # no sum, so no rounding
             heights = points[:, along[0]] * sign(normal[along[0]])
-            near = used[[int(heights.argmax())]]
+            near = [int(heights.argmax())]
         else:
             direction = rounded(normal)
             heights = points @ direction
             # Three products, two sums, and the rounding of the direction: 6 roundoffs cover them.
-            sizes = np.abs(points) @ np.abs(direction)
-            error = 8 * 2.0**-53 * float(sizes.max()) + 2.0**-1000
-            near = used[heights >= heights.max() - 2 * error]
-        exact = [dot(normal, p) for p in integers(self.world.vertices[near], self.k)]
+            error = 8 * 2.0**-53 * largest * sum(map(abs, direction.tolist())) + 2.0**-1000
+            near = np.flatnonzero(heights >= heights.max() - 2 * error).tolist()
+        exact = [dot(normal, p) for p in integers(points[near], self.k)]
         best = max(range(len(exact)), key=exact.__getitem__)
-        return int(near[best]), exact[best]
+        return int(used[near[best]]), exact[best]
 
     def extent(self, normal: Sequence[Any]) -> Any:
         return self.farthest(normal)[1]
+
+    def reach(self, n: Point) -> Reach:
+        """How far it reaches along n, times the length of n, world units."""
+        return Reach(Fraction(self.extent(n)) / self.scale)
+
+    def planes(self) -> Iterator[tuple[IntVector, int]]:
+        """(n, h): the plane n . p = h of each triangle that has an area, once; n points outward."""
+        seen: set[tuple[IntVector, int]] = set()
+        for corners in map(self.corners, range(len(self.world.triangles))):
+            x, y, z = normal_of(corners)
+            if divisor := gcd(x, y, z):
+                normal = x // divisor, y // divisor, z // divisor
+                plane = normal, dot(normal, corners[0])
+                if plane not in seen:
+                    seen.add(plane)
+                    yield plane
+
+    @cached_property
+    def six_volumes(self) -> int:
+        """Six times the signed volume that a balanced surface winds around."""
+        triangles = map(self.corners, range(len(self.world.triangles)))
+        return sum(dot(a, cross(b, c)) for a, b, c in triangles)
 
     def winding(self, p: Point) -> int | None:
         """How often the surface runs around p; None where p lies on it."""
@@ -261,20 +276,14 @@ class Exact:
             corners = self.corners(t)
             normal = normal_of(corners)
             above = dot(normal, x) - dot(normal, corners[0]) * x[3]
-            in_plane = (
-                above == 0 and plane is not None and any(normal) and not any(cross(normal, plane))
-            )
-            if (
-                above == 0
-                and not in_plane
-                and all(height(space, x) <= 0 for space in half_spaces(corners))
-            ):
-                return None
             side = projected_side(corners, x, axis)
-            if in_plane:
-                flush += side
-            elif above * side < 0:
+            if above * side < 0:
                 ahead += side
+            elif above == 0:
+                if plane is not None and any(normal) and not any(cross(normal, plane)):
+                    flush += side
+                elif all(height(space, x) <= 0 for space in half_spaces(corners)):
+                    return None
         return ahead, flush
 
     def _in_the_way(self, p: Point, axis: int) -> list[int]:

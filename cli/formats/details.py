@@ -1,5 +1,5 @@
 """Lines below a table: the support of bodies, overlaps by component, bodies in regions, and with
-`--explain` what was computed and why, the known facts of each body, the plan of each pair."""
+`--explain` what was computed and why, the known facts of each body, the trace of each pair."""
 
 from __future__ import annotations
 
@@ -197,9 +197,9 @@ def explanation(
     lines += aligned([row for body in report.bodies for row in _about(body)], page)
     for finding in findings:
         title = f"{finding.a} against {finding.b}: {finding.relation}"
-        plan = [(s.stage, s.result, s.microseconds, s.detail) for s in finding.plan]
+        trace = [(s.stage, s.result, s.microseconds, s.detail) for s in finding.plan]
         lines += ["", *fitted(title, page, BOLD)]
-        lines += aligned(_rows(plan, timings=timings), page, bold=False)
+        lines += aligned(_rows(trace, timings=timings), page, bold=False)
     return [*lines, ""]
 
 

@@ -13,7 +13,7 @@ from msgspec import UNSET, UnsetType
 from satcheck.report.certificate import SurfacesProof
 from satcheck.report.report import OVERLAPS
 from satcheck.report.values import Relation
-from satcheck.verify.boundary import boundary_of
+from satcheck.verify.cells import boundary_of
 from satcheck.verify.exact import Rejected, cross, dot, sub
 from satcheck.verify.pairs import Pair
 from satcheck.verify.relations import prove

@@ -63,7 +63,7 @@ def test_a_line_does_not_stick_out(tmp_path: Path) -> None:
 
 
 def test_what_has_an_area_sticks_out() -> None:
-    a, b = sheared(bracket(), 1), sheared(unit_box(0.0, 0.0, -1.0), 1)
+    a, b = (Exact(sheared(mesh, 1), 0) for mesh in (bracket(), unit_box(0.0, 0.0, -1.0)))
     assert stick_out(a, b, Fraction(0), None)
     assert not stick_out(a, a, Fraction(0), None)
     assert not stick_out(a, b, Fraction(100), None)

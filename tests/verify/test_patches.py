@@ -9,9 +9,10 @@ import pytest
 
 from satcheck.report.certificate import Face, Plane
 from satcheck.verify import Rejected
-from satcheck.verify.exact import Point, planar_hull, root
+from satcheck.verify.exact import Point, root
 from satcheck.verify.partition import Frame
-from satcheck.verify.patches import Side, next_points, patch_of, slack, squared_distance
+from satcheck.verify.surfaces import next_points, slack, squared_distance
+from satcheck.verify.thickness import Side, patch_of, planar_hull
 from satcheck.verify.world import Exact
 from tests.audit.shapes import Mesh, bracket, unit_box
 from tests.verify.test_cover import pair_of

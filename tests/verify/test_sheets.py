@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from satcheck import core
-from satcheck.verify.boundary import no_crossing
+from satcheck.verify.cells import no_crossing
 from satcheck.verify.exact import Rejected
 from satcheck.verify.surfaces import meeting
 from satcheck.verify.world import Exact, World

@@ -10,7 +10,7 @@ import pytest
 
 from satcheck import core
 from satcheck.verify.exact import Rejected, dot, normal_of, sign, sub
-from satcheck.verify.meshes import AT_ONCE, is_balanced, is_convex
+from satcheck.verify.meshes import is_balanced, is_convex
 from satcheck.verify.world import Exact, World, placed
 from tests.audit.shapes import Mesh, bracket, open_box, unit_box
 
@@ -116,9 +116,8 @@ def test_convexity_is_exact() -> None:
 
 
 def test_of_a_large_body_every_point_counts() -> None:
-    """More sides of points than are found at once: one point of thousands is in front."""
+    """One point of thousands is in front."""
     points, triangles = bricks(30)
-    assert len(points) * len(triangles) > 2 * AT_ONCE
     points = np.round(points * 2**20)
     assert is_convex(points, triangles)
     row = int(np.flatnonzero(points[:, 0] == points[:, 0].max())[450])

@@ -1,10 +1,13 @@
-"""The answers of a report to its body rules, one by one."""
+"""The answers of a report to its body rules, one by one: sums of contact forces, and the power of
+motions, in rational numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +15,7 @@ from satcheck.report.statics import (
     BodyContact,
     BodyIsland,
     ContactPoint,
+    FirstMotion,
     Statics,
     SupportedBody,
     SupportFinding,
@@ -20,24 +24,25 @@ from satcheck.report.verification import CheckedSupport
 from satcheck.scene.statics import QUESTIONS
 from satcheck.verify.answers import body_terms, checked, once
 from satcheck.verify.bodies import Placed
-from satcheck.verify.exact import NotCertified, Rejected, sub
+from satcheck.verify.exact import NotCertified, Point, Rejected, cross, dot, sub
 from satcheck.verify.pairs import vector
-from satcheck.verify.statics.contacts import ROUNDING, Contacts, check_apart
-from satcheck.verify.statics.weights import (
-    Push,
-    Weight,
-    check_balance,
-    check_in_cone,
-    check_power,
-    covers_once,
-    resistance,
-    velocity_at,
-    weight_of,
-)
+from satcheck.verify.statics.contacts import ROUNDING, Contacts, Place, check_apart
+from satcheck.verify.statics.weights import Weight, covers_once, weight_of
 
 SAME_WEIGHT = 1e-9  # relative
 FASTEST = 1e100  # of a motion, whose squares are floats
 STEEP = np.sqrt(0.5)  # the cosine of 45 degrees: bodies beside such contacts may be squeezed
+
+# Forces balance a weight up to this share of it, and torques up to this share of the weight times
+# the size of the body: the rounding of the numbers in a report.
+BALANCED = Fraction(1, 10**9)
+# Forces are in their cones up to this share: the rounding of a force along a normal.
+CONE = Fraction(1, 10**12)
+# No forces below this many weights stop a motion.
+LEAST_FACTOR = 10**5
+
+Push = tuple[Point, Point]  # where a force acts, and the force
+Motion = tuple[FirstMotion, Weight]
 
 
 class Claims:
@@ -165,7 +170,7 @@ class Claims:
             if not covers_once(self.bodies[name]):
                 raise NotCertified(f"{name}: its parts may overlap, so its mass is not certified")
             size = Fraction(self.contacts.size(name))
-            check_balance(name, self._weight(name), self.down, size, own)
+            _check_balance(name, self._weight(name), self.down, size, own)
             for other in self.contacts.near(name):
                 if self.bodies[other].bounds is not None:
                     self.contacts.check_shallow(name, other)
@@ -175,7 +180,7 @@ class Claims:
         if strict and not self.contacts.is_strict(contact.a, contact.b, place):
             raise Rejected(f"{contact.a} and {contact.b}: a force needs the tolerance")
         friction = Fraction(self._friction(contact.a, contact.b))
-        check_in_cone(vector(point.force or ()), vector(place.normal.tolist()), friction)
+        _check_in_cone(vector(point.force or ()), vector(place.normal.tolist()), friction)
 
     def _check_moves(self, body: SupportedBody) -> None:
         """By a motion of all that moves in contact with it: no forces hold these bodies."""
@@ -214,10 +219,10 @@ class Claims:
                 friction = self._friction(name, other)
                 for place in self.contacts.between(name, other):
                     at = vector(place.at.tolist())
-                    own, against = (velocity_at(motions.get(n), at) for n in (name, other))
-                    worst = max(worst, resistance(place, friction, sub(own, against)))
+                    own, against = (_velocity_at(motions.get(n), at) for n in (name, other))
+                    worst = max(worst, _resistance(place, friction, sub(own, against)))
                 self.contacts.check_shallow(name, other)
-        check_power(motions.values(), self.down, worst)
+        _check_power(motions.values(), self.down, worst)
 
     def _check_afloat(self) -> None:
         """All bodies that float, together: none of them touches another one."""
@@ -242,3 +247,64 @@ class Claims:
 
 def _is_moving(body: SupportedBody) -> bool:
     return body.motion is not None and any((*body.motion.velocity, *body.motion.angular))
+
+
+def _check_in_cone(force: Point, normal: Point, friction: Fraction) -> None:
+    """Rejects a force that pulls, or that friction does not allow: |f|^2 |n|^2 <= (1 + mu^2)
+    (f.n)^2."""
+    along = dot(force, normal)
+    if along < 0:
+        raise Rejected("a contact force pulls")
+    limit = (1 + friction * friction) * along * along * (1 + CONE)
+    if dot(force, force) * dot(normal, normal) > limit:
+        raise Rejected("a contact force is outside of its friction cone")
+
+
+def _check_balance(
+    name: str, weight: Weight, down: Point, size: Fraction, pushes: Iterable[Push]
+) -> None:
+    """Rejects forces that do not balance gravity on a body. down: unit, up to rounding. size: of
+    the body, for torques."""
+    force: list[Any] = [weight.mass * c for c in down]
+    torque: list[Any] = [Fraction(0)] * 3
+    for at, push in pushes:
+        turning = cross(sub(at, weight.centre), push)
+        for k in range(3):
+            force[k] += push[k]
+            torque[k] += turning[k]
+    limit = BALANCED * weight.mass
+    if max(map(abs, force)) > limit or max(map(abs, torque)) > limit * size:
+        raise Rejected(f"the contact forces on {name} do not add up to its weight")
+
+
+def _velocity_at(motion: Motion | None, at: Point) -> Point:
+    """Of a point of a body that moves so; None: it is at rest."""
+    if motion is None:
+        return Fraction(0), Fraction(0), Fraction(0)
+    first, weight = motion
+    turning = cross(vector(first.angular), sub(at, weight.centre))
+    x, y, z = (p + q for p, q in zip(vector(first.velocity), turning, strict=True))
+    return x, y, z
+
+
+def _resistance(place: Place, friction: float, relative: Point) -> float:
+    """How fast the motion presses the contact, or slides more than it opens: 0 if no force there
+    does work against it. relative: the velocity of A against B. By J. J. Moreau, the dual of a
+    friction cone holds the velocities u with u.n >= mu |u - (u.n) n|."""
+    n = vector(place.normal.tolist())
+    opening = Fraction(dot(relative, n))
+    across = [r - opening * c for r, c in zip(relative, n, strict=True)]
+    sliding = math.sqrt(dot(across, across))
+    return max(friction * sliding - float(opening), 0.0)
+
+
+def _check_power(motions: Collection[Motion], down: Point, worst: float) -> None:
+    """Rejects a motion along which gravity does no work, or which contacts resist: by `worst`, the
+    largest _resistance. Forces f >= 0 with f * worst < power cannot stop it."""
+    works = (weight.mass * dot(vector(first.velocity), down) for first, weight in motions)
+    power = sum(works, Fraction(0))
+    if power <= 0:
+        raise Rejected("gravity does no work along the motion")
+    total = sum((weight.mass for _, weight in motions), Fraction(0))
+    if Fraction(worst) * LEAST_FACTOR * total > power:
+        raise Rejected("a contact resists the motion")

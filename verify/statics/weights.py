@@ -1,4 +1,4 @@
-"""Masses, sums of contact forces, and the power of a motion, in rational numbers.
+"""Masses and their centres, in rational numbers.
 
 A tetrahedron between the origin and each triangle: the sum of the signed volumes, and of their
 centres, is that of the solid (C. Zhang, T. Chen, "Efficient feature extraction for 2D/3D objects in
@@ -9,10 +9,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -25,32 +23,19 @@ from satcheck.core.shapes import (
     Sphere,
     sizes_of,
 )
-from satcheck.report.statics import FirstMotion
 from satcheck.verify.bodies import Placed
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import (
-    NotCertified,
     Point,
     Rejected,
     cross,
     dot,
-    integers,
     point,
-    sub,
 )
-from satcheck.verify.pairs import vector
-from satcheck.verify.statics.places import Place
 from satcheck.verify.surfaces import meeting
 from satcheck.verify.world import Exact, World, connected
 
 MOST_PARTS = 500  # of a mesh, whose boxes are compared in pairs
-# Forces balance a weight up to this share of it, and torques up to this share of the weight times
-# the size of the body: the rounding of the numbers in a report.
-BALANCED = Fraction(1, 10**9)
-# Forces are in their cones up to this share: the rounding of a force along a normal.
-CONE = Fraction(1, 10**12)
-# No forces below this many weights stop a motion.
-LEAST_FACTOR = 10**5
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,10 +44,6 @@ class Weight:
 
     mass: Fraction
     centre: Point
-
-
-Push = tuple[Point, Point]  # where a force acts, and the force
-Motion = tuple[FirstMotion, Weight]
 
 
 def weight_of(body: Placed, mass: float | None, density: float | None) -> Weight:
@@ -105,23 +86,19 @@ def _bounds_once(shell: Exact, others: list[Exact]) -> bool:
     it 0 and 1."""
     corner = point(shell.points[shell.world.triangles[0, 0]])
     outside = sum(other.winding(corner) or 0 for other in others)
-    six = sum(dot(a, cross(b, c)) for a, b, c in map(shell.corners, range(len(shell.world.low))))
-    return {outside, outside + (1 if six > 0 else -1)} == {0, 1}
+    return {outside, outside + (1 if shell.six_volumes > 0 else -1)} == {0, 1}
 
 
 def _of_mesh(world: World) -> tuple[Fraction, Point]:
-    k = world.lattice
-    points = integers(world.vertices, k)
-    six, moments = 0, [0, 0, 0]
-    for i, j, m in world.triangles.tolist():
-        a, b, c = points[i], points[j], points[m]
-        part = dot(a, cross(b, c))
-        six += part
-        for axis in range(3):
-            moments[axis] += part * (a[axis] + b[axis] + c[axis])
+    solid = Exact(world, world.lattice)
+    six, scale = solid.six_volumes, solid.scale
     if six <= 0:
         raise Rejected("a body without a volume has no mass")
-    scale = 1 << k
+    moments = [0, 0, 0]
+    for a, b, c in map(solid.corners, range(len(world.triangles))):
+        part = dot(a, cross(b, c))
+        for axis in range(3):
+            moments[axis] += part * (a[axis] + b[axis] + c[axis])
     return Fraction(six, 6 * scale**3), point(Fraction(m, 4 * six * scale) for m in moments)
 
 
@@ -153,75 +130,3 @@ def _unplaced(shape: Primitive) -> tuple[Fraction, Fraction]:
             return circle * radius**2 * height / 3, -height / 4
         case _:
             raise Rejected("a box is no curved shape")
-
-
-def ball(body: Placed) -> tuple[tuple[float, float, float], float]:
-    """(centre, radius). Raises NotCertified for other curved shapes, and for balls that are scaled
-    unevenly."""
-    image = None if body.curved is None else body.curved.image
-    if image is None or not isinstance(image.primitive, Sphere):
-        raise NotCertified(f"{body.id}: the contacts of such a shape are not certified")
-    stretch = [math.hypot(*column) for column in image.columns]
-    if max(stretch) - min(stretch) > 1e-12 * max(stretch):
-        raise NotCertified(f"{body.id}: the contacts of such a shape are not certified")
-    return image.origin, image.primitive.radius * stretch[0]
-
-
-def check_in_cone(force: Point, normal: Point, friction: Fraction) -> None:
-    """Rejects a force that pulls, or that friction does not allow: |f|^2 |n|^2 <= (1 + mu^2)
-    (f.n)^2."""
-    along = dot(force, normal)
-    if along < 0:
-        raise Rejected("a contact force pulls")
-    limit = (1 + friction * friction) * along * along * (1 + CONE)
-    if dot(force, force) * dot(normal, normal) > limit:
-        raise Rejected("a contact force is outside of its friction cone")
-
-
-def check_balance(
-    name: str, weight: Weight, down: Point, size: Fraction, pushes: Iterable[Push]
-) -> None:
-    """Rejects forces that do not balance gravity on a body. down: unit, up to rounding. size: of
-    the body, for torques."""
-    force: list[Any] = [weight.mass * c for c in down]
-    torque: list[Any] = [Fraction(0)] * 3
-    for at, push in pushes:
-        turning = cross(sub(at, weight.centre), push)
-        for k in range(3):
-            force[k] += push[k]
-            torque[k] += turning[k]
-    limit = BALANCED * weight.mass
-    if max(map(abs, force)) > limit or max(map(abs, torque)) > limit * size:
-        raise Rejected(f"the contact forces on {name} do not add up to its weight")
-
-
-def velocity_at(motion: Motion | None, at: Point) -> Point:
-    """Of a point of a body that moves so; None: it is at rest."""
-    if motion is None:
-        return Fraction(0), Fraction(0), Fraction(0)
-    first, weight = motion
-    turning = cross(vector(first.angular), sub(at, weight.centre))
-    return point(p + q for p, q in zip(vector(first.velocity), turning, strict=True))
-
-
-def resistance(place: Place, friction: float, relative: Point) -> float:
-    """How fast the motion presses the contact, or slides more than it opens: 0 if no force there
-    does work against it. relative: the velocity of A against B. By J. J. Moreau, the dual of a
-    friction cone holds the velocities u with u.n >= mu |u - (u.n) n|."""
-    n = vector(place.normal.tolist())
-    opening = Fraction(dot(relative, n))
-    across = [r - opening * c for r, c in zip(relative, n, strict=True)]
-    sliding = math.sqrt(dot(across, across))
-    return max(friction * sliding - float(opening), 0.0)
-
-
-def check_power(motions: Collection[Motion], down: Point, worst: float) -> None:
-    """Rejects a motion along which gravity does no work, or which contacts resist: by `worst`, the
-    largest resistance. Forces f >= 0 with f * worst < power cannot stop it."""
-    works = (weight.mass * dot(vector(first.velocity), down) for first, weight in motions)
-    power = sum(works, Fraction(0))
-    if power <= 0:
-        raise Rejected("gravity does no work along the motion")
-    total = sum((weight.mass for _, weight in motions), Fraction(0))
-    if Fraction(worst) * LEAST_FACTOR * total > power:
-        raise Rejected("a contact resists the motion")

@@ -9,7 +9,7 @@ import pytest
 
 from satcheck import core
 from satcheck.audit.axes import axes_shown, relation_shown
-from satcheck.core.axes import candidates, hull_of
+from satcheck.core.axes import corners_of, edge_pairs, hull_of
 from tests.hard_cases.case import ConvexPair, Family, Vertices
 from tests.hard_cases.families import FAMILIES, large
 
@@ -35,11 +35,11 @@ def has_axes(pair: ConvexPair) -> bool:
 
 def shown_by_axes(pair: ConvexPair) -> str:
     first, second = polytope_of(pair.a), polytope_of(pair.b)
-    world = np.concatenate((first.vertices, second.vertices))
-    step = float(np.abs(world).max()) * 2.0**-53
-    a, b = hull_of(first, 0, world, step), hull_of(second, first.vertex_count, world, step)
-    made = candidates(a, b)
-    return relation_shown(axes_shown(made.where(made.plain), world, a.points, b.points))
+    of_a, of_b = corners_of(first.vertices, second.vertices)
+    step = max(float(np.abs(side.world).max()) for side in (of_a, of_b)) * 2.0**-53
+    a, b = hull_of(first, of_a, step), hull_of(second, of_b, step)
+    pairs = edge_pairs(a, b)
+    return relation_shown(axes_shown(a, b, pairs.where(pairs.plain)))
 
 
 @pytest.mark.parametrize("family", SMALL, ids=lambda family: family.CATEGORY)

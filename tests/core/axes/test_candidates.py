@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.core.axes import Floats, Hull, candidates, hull_of, shadows
+from satcheck.audit.axes import axes_shown
+from satcheck.core.axes import Floats, Hull, corners_of, edge_pairs, hull_of
 from tests.oracles.brute_sat import signed_distance
 from tests.oracles.random_shapes import (
     box_corners,
@@ -25,18 +26,16 @@ def polytope_of(points: Floats) -> core.Polytope:
     return core.Mesh(np.ascontiguousarray(points), no_triangles).convex_hull()
 
 
-def both(a: Floats, b: Floats, step: float = STEP) -> tuple[Hull, Hull, Floats]:
-    polytopes = polytope_of(a), polytope_of(b)
-    world = np.concatenate([each.vertices for each in polytopes])
-    first = hull_of(polytopes[0], 0, world, step)
-    return first, hull_of(polytopes[1], polytopes[0].vertex_count, world, step), world
+def both(a: Floats, b: Floats, step: float = STEP) -> tuple[Hull, Hull]:
+    first, second = polytope_of(a), polytope_of(b)
+    of_first, of_second = corners_of(first.vertices, second.vertices)
+    return hull_of(first, of_first, step), hull_of(second, of_second, step)
 
 
 def largest_gap(a: Floats, b: Floats) -> float:
-    first, second, world = both(a, b)
-    made = candidates(first, second)
-    axes = made.axes[made.plain]
-    return float(shadows(world, axes, first.points, second.points).gap.max())
+    first, second = both(a, b)
+    pairs = edge_pairs(first, second)
+    return max(axis.gap for axis in axes_shown(first, second, pairs.where(pairs.plain)))
 
 
 PRISM = np.array([[np.cos(t), np.sin(t), z] for z in (0.0, 1.0) for t in np.arange(6) * np.pi / 3])
@@ -54,11 +53,12 @@ PRISM = np.array([[np.cos(t), np.sin(t), z] for z in (0.0, 1.0) for t in np.aran
 )
 def test_faces_and_edges_are_those_of_the_solid(points: Floats, faces: int, sides: int) -> None:
     for turn in (np.eye(3), rotation_matrix(np.array([0.1, 0.2, 0.3, 0.9]))):
-        features, _, world = both(points @ turn.T, box_corners((1, 1, 1)))
+        features, _ = both(points @ turn.T, box_corners((1, 1, 1)))
         assert (features.faces, features.sides) == (faces, sides)
         assert len(features.edges) >= sides
-        outward = features.left[:sides] + features.right[:sides]
-        middle = world[features.edges[:sides]].mean(axis=1) - world[features.points].mean(axis=0)
+        outward = features.unit[features.beside[:sides]].sum(axis=1)
+        world = features.corners.world
+        middle = world[features.edges[:sides]].mean(axis=1) - world.mean(axis=0)
         if faces > 2:  # the two normals of a polygon cancel
             assert ((outward * middle).sum(axis=1) > 0).all()
 
@@ -66,9 +66,9 @@ def test_faces_and_edges_are_those_of_the_solid(points: Floats, faces: int, side
 def test_coordinates_of_float32_have_flat_faces_within_their_precision() -> None:
     corners = box_corners((1, 2, 3)) @ rotation_matrix(np.array([0.1, 0.2, 0.3, 0.9])).T
     rounded = np.float32(corners).astype(float)
-    features, *_ = both(rounded, corners, step=3 * 2.0**-23)
+    features, _ = both(rounded, corners, step=3 * 2.0**-23)
     assert (features.faces, features.sides) == (6, 12)
-    features, *_ = both(rounded, corners)
+    features, _ = both(rounded, corners)
     assert features.faces > 6
 
 
@@ -97,6 +97,4 @@ def test_pairs_of_edges_that_are_left_out_make_no_face_of_the_difference() -> No
     for _ in range(20):
         turn_a, turn_b = (rotation_matrix(random_quaternion(rng)) for _ in range(2))
         box = box_corners((1, 2, 3))
-        a, b, *_ = both(box @ turn_a.T, box @ turn_b.T)
-        made = candidates(a, b)
-        assert made.plain.sum() == len(a.face) + len(b.face) + 18
+        assert edge_pairs(*both(box @ turn_a.T, box @ turn_b.T)).plain.sum() == 18

@@ -7,10 +7,23 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from satcheck.core.axes import Floats, Indices, exact_normal, integers, shadows
+from satcheck.core.axes import Corners, Floats, Indices, Shadows, corners_of, shadows, unit_of
 from tests.oracles.random_shapes import random_quaternion, rotation_matrix
 
 UNIT = 1e-15
+
+
+def on_axes(points: Floats, rows: Indices) -> list[Shadows]:
+    """A has the first half of the points. Each row p q r s is the axis (q - p) x (s - r)."""
+    (together,) = corners_of(points)
+    half = len(points) // 2
+    a, b = (
+        Corners(points[side], together.exact[side], together.scale)
+        for side in (slice(half), slice(half, 2 * half))
+    )
+    p, q, r, s = (together.exact[column] for column in rows.T)
+    normal = np.cross(q - p, s - r)
+    return [shadows(n, unit, a, b) for n, unit in zip(normal, unit_of(normal), strict=True)]
 
 
 def exact_gap_squared(points: Floats, corners: Indices, a: Indices, b: Indices) -> Fraction:
@@ -50,32 +63,33 @@ def test_signs_are_those_of_rational_numbers(kind: str) -> None:
     seen = set()
     for _ in range(30):
         points, corners = random_case(rng, kind)
-        exact, _ = integers(points)
-        corners = corners[[any(exact_normal(exact[row])) for row in corners]]
-        found = shadows(points, corners, a, b)
+        (exact,) = (each.exact for each in corners_of(points))
+        p, q, r, s = (exact[column] for column in corners.T)
+        corners = corners[np.cross(q - p, s - r).any(axis=1)]
         size = float(np.ptp(points, axis=0).max())
-        assert np.abs(np.linalg.norm(found.direction, axis=1) - 1).max() <= UNIT
-        for k, row in enumerate(corners):
+        for found, row in zip(on_axes(points, corners), corners, strict=True):
             truth = exact_gap_squared(points, row, a, b)
-            assert found.sign[k] == (truth > 0) - (truth < 0)
+            assert abs(np.linalg.norm(found.direction) - 1) <= UNIT
+            assert found.sign == (truth > 0) - (truth < 0)
             gap = np.sign(float(truth)) * abs(float(truth / Fraction(size) ** 2)) ** 0.5 * size
-            assert abs(found.gap[k] - gap) <= found.off[k] + 1e-14 * abs(gap)
-            assert found.off[k] <= 1e-9 * (size + np.abs(points).max())
-            seen.add(int(found.sign[k]))
+            assert abs(found.gap - gap) <= 1e-14 * abs(gap)
+            seen.add(found.sign)
     assert seen >= ({-1, 0} if kind == "grid" else {-1})
 
 
 def test_shadows_lie_where_the_points_do_and_the_axis_leads_from_a_to_b() -> None:
     points = np.array([[5.0, 0, 0], [6, 0, 0], [5, 1, 0], [1, 0, 0], [2, 0, 0], [1, 1, 0]])
-    sides = np.arange(3), np.arange(3, 6)
     with pytest.raises(ZeroDivisionError):  # an axis without a direction is the caller's mistake
-        shadows(points, np.array([[0, 1, 3, 4]]), *sides)
-    found = shadows(points, np.array([[0, 2, 3, 4], [0, 1, 0, 2]]), *sides)
-    assert found.direction[0].tolist() == [0.0, 0.0, 1.0]
-    assert found.sign.tolist() == [0, 0]
-    across = np.vstack((points, [[0, 0, 0], [0, 0, 1]]))
-    found = shadows(across, np.array([[0, 2, 6, 7]]), *sides)
-    assert found.direction[0].tolist() == [-1.0, 0.0, 0.0]
-    assert found.a[0].tolist() == [-6.0, -5.0]
-    assert found.b[0].tolist() == [-2.0, -1.0]
-    assert found.gap[0] == 3.0
+        on_axes(points, np.array([[0, 1, 3, 4]]))
+    found = on_axes(points, np.array([[0, 2, 3, 4], [0, 1, 0, 2]]))
+    assert found[0].direction == (0.0, 0.0, 1.0)
+    assert [each.sign for each in found] == [0, 0]
+    a, b = corners_of(points[:3], points[3:])
+    across = np.array([[1, 0, 0]], dtype=object)
+    (found_there,) = (
+        shadows(n, unit, a, b) for n, unit in zip(across, unit_of(across), strict=True)
+    )
+    assert found_there.direction == (-1.0, 0.0, 0.0)
+    assert found_there.a == (-6.0, -5.0)
+    assert found_there.b == (-2.0, -1.0)
+    assert found_there.gap == 3.0
