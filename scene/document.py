@@ -141,10 +141,10 @@ class RawJoint(Struct, frozen=True):
 
 
 class RawRule(Struct, frozen=True):
-    """A rule of a document for the pairs of two nodes, or of two groups. reason: a text.
+    """A rule of a document for the pairs of two nodes or links, or of two groups. reason: a text.
 
-    a, b: paths of nodes, or names of groups. severity: of findings about the pair; None: it may
-    overlap, and nothing is computed.
+    a, b: paths of nodes, links of a robot, or names of groups. severity: of findings about the
+    pair; None: it may overlap, and nothing is computed, unless it is `checked` nevertheless.
     """
 
     a: str
@@ -152,6 +152,12 @@ class RawRule(Struct, frozen=True):
     reason: str
     of_groups: bool = False
     severity: RuleSeverity | None = None
+    checked: bool = False
+
+    @classmethod
+    def within(cls, group: str, reason: str) -> RawRule:
+        """Return that for the members of one group, which may overlap."""
+        return cls(group, group, reason, of_groups=True)
 
 
 class Document(Struct, frozen=True, tag=True):

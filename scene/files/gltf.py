@@ -136,9 +136,7 @@ class GltfScene:
             groups = () if body is None else (f"rigid body {body}",)
             nodes.append(Item(number, one.path, matrix, groups=groups))
         bodies = dict.fromkeys(group for node in nodes for group in node.groups)
-        rules = [
-            RawRule(name, name, "colliders of one rigid body", of_groups=True) for name in bodies
-        ]
+        rules = [RawRule.within(name, "colliders of one rigid body") for name in bodies]
         note = "left-out", "colliders are checked: meshes that are no collider have no body"
         return Document(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
 
