@@ -25,7 +25,7 @@ from io import FileIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from satcheck._native.readers import read_file
 from satcheck.scene.errors import Refused
@@ -164,57 +164,40 @@ _GRAIN_NS = 2_000_000_000
 _status = os.stat
 
 
-class FilesRead:
-    """The files that a check has read or looked for, in that order. `folder/` stands for the names
-    of the folders in it."""
+class FilesRead(Struct, eq=False):
+    """The files that a check has read or looked for, in that order.
 
-    def __init__(self) -> None:
-        self._signatures: dict[str, Signature] = {}
-        self._digests: dict[str, str] = {}
-        self._lost = False
-        self._began_ns = time.time_ns()
+    signatures: when they were noted. `folder/` stands for the names of the folders in it. digests:
+    SHA-256, hex, of the bytes, if it was made as they were read. are_all: False: a process died
+    that may have read others.
+    """
+
+    signatures: dict[str, Signature] = {}
+    digests: dict[str, str] = {}
+    are_all: bool = True
+    began_ns: int = field(default_factory=time.time_ns)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._signatures)
-
-    def __contains__(self, name: str) -> bool:
-        return name in self._signatures
-
-    def signature(self, name: str) -> Signature:
-        """When it was noted."""
-        return self._signatures[name]
-
-    def add(self, name: str, at: Signature) -> None:
-        self._signatures.setdefault(name, at)
-
-    def add_digest(self, name: str, digest: str) -> None:
-        self._digests[name] = digest
-
-    def digest(self, name: str) -> str | None:
-        """Return the SHA-256, hex, of the bytes; None: it was not made as they were read."""
-        return self._digests.get(name)
-
-    def lose(self) -> None:
-        self._lost = True
+        return iter(self.signatures)
 
     def are_certain(self) -> bool:
         """Whether these are all files, and none has changed since it was noted."""
-        known = self._signatures.items()
-        return not self._lost and all(signature(name) == at for name, at in known)
+        known = self.signatures.items()
+        return self.are_all and all(signature(name) == at for name, at in known)
 
     def are_settled(self) -> bool:
         """Whether these are all files, and each change since they were noted will show in a
         signature."""
-        return not self._lost and all(map(self.is_settled, self))
+        return self.are_all and all(map(self.is_settled, self))
 
     def is_settled(self, name: str) -> bool:
-        at = self._signatures[name]
-        return at is None or max(at[-2:]) < self._began_ns - _GRAIN_NS
+        at = self.signatures[name]
+        return at is None or max(at[-2:]) < self.began_ns - _GRAIN_NS
 
     def note_again(self) -> None:
         for name in self:
             note(name)
-        for name, digest in self._digests.items():
+        for name, digest in self.digests.items():
             _note_digest(name, digest)
 
 
@@ -225,15 +208,15 @@ def note(location: str | Path) -> None:
     """location: of a file that the answer depends on, even if it is not there."""
     if not _listening:
         return
-    name, outermost = os.fspath(location), _listening[0]
-    at = outermost.signature(name) if name in outermost else signature(name)
+    name, known = os.fspath(location), _listening[0].signatures
+    at = known[name] if name in known else signature(name)
     for listener in _listening:
-        listener.add(name, at)
+        listener.signatures.setdefault(name, at)
 
 
 def _note_digest(location: StrPath, digest: str) -> None:
     for listener in _listening:
-        listener.add_digest(str(location), digest)
+        listener.digests[str(location)] = digest
 
 
 def note_folders_in(folder: Path) -> None:
@@ -244,7 +227,7 @@ def note_folders_in(folder: Path) -> None:
 def note_lost_reader() -> None:
     """A process died that may have read files which nobody knows."""
     for listener in _listening:
-        listener.lose()
+        listener.are_all = False
 
 
 @contextmanager

@@ -60,9 +60,9 @@ class Digests:
 
     def digest(self, files: FilesRead, name: str) -> str | None:
         """files: the name is one of them."""
-        if (made := files.digest(name)) is not None:
-            return made
-        at = files.signature(name)
+        if name in files.digests:
+            return files.digests[name]
+        at = files.signatures[name]
         known = self._known.pop(name, None)
         if known is None or known[0] != at:
             known = at, digest(name)
