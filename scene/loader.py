@@ -41,15 +41,8 @@ from satcheck.scene.files.readers import (
 )
 from satcheck.scene.issue import BLOCKING, UNUSED_OPTION, Issue, issue
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.opening import (
-    DEFAULT_MEGABYTES_PER_FILE,
-    DEFAULT_SECONDS_PER_FILE,
-    NOTHING_ELSE,
-    Permitted,
-    name_of,
-    read_whole,
-    suffix_of,
-)
+from satcheck.scene.opening import DEFAULT_SECONDS_PER_FILE, name_of, read_whole, suffix_of
+from satcheck.scene.permitted import DEFAULT_MEGABYTES_PER_FILE, NOTHING_ELSE, Permitted
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import (
     MICROMETRES,

@@ -30,7 +30,7 @@ from satcheck.scene.files.gltf_document import (
     SparseValues,
 )
 from satcheck.scene.files.readers import NeedsChild
-from satcheck.scene.opening import Context
+from satcheck.scene.permitted import Context
 
 _GLB_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
 _CHUNK_HEADER = struct.Struct("<II")  # length, type

@@ -28,7 +28,8 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.opening import File as File
 from satcheck.scene.opening import ReadLimits as ReadLimits
-from satcheck.scene.opening import StrPath, size_of, suffix_of
+from satcheck.scene.opening import size_of, suffix_of
+from satcheck.scene.permitted import StrPath
 from satcheck.scene.words import meant
 
 T = TypeVar("T")

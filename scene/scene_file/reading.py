@@ -23,7 +23,8 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import mesh_reader, readers
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.motion import Motion
-from satcheck.scene.opening import NOTHING_ELSE, Context, Permitted, suffix_of
+from satcheck.scene.opening import suffix_of
+from satcheck.scene.permitted import NOTHING_ELSE, Context, Permitted
 from satcheck.scene.rules import Rule, RuleKeys
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1
