@@ -182,6 +182,11 @@ class Document(Struct, frozen=True, tag=True):
     issues: tuple[Issue, ...] = ()
     robot: Robot | None = None
 
+    @property
+    def moves(self) -> bool:
+        """Return whether joints may move its links: it is a robot, or like one."""
+        return self.robot is not None or any(joint.kind != "fixed" for joint in self.joints)
+
     def check(self) -> None:
         """Refuse what no reader may return, as a reader of another package may. Raises Refused.
         Coordinates and corners are checked where meshes are inspected."""
