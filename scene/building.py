@@ -232,16 +232,11 @@ class SceneBuilder:
             composed=any(each.document.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
-        files = [(each, file) for each in self._inputs if (file := _scene_file(each.document))]
-        if not files:
-            return scene
-        from satcheck.scene.scene_file.joined import Joined, joined
+        if any(map(_scene_file, (each.document for each in self._inputs))):
+            from satcheck.scene.scene_file.joined import joined
 
-        stated = []
-        for each, file in files:
-            ids = dict(zip((item.id for item in file.items), each.ids, strict=True))
-            stated.append(Joined(file, ids, each.groups, common.scales.get(file.path, 1.0)))
-        return joined(scene, stated, alone=len(inputs) == 1)
+            scene = joined(scene, self._inputs, common.scales)
+        return scene
 
 
 def _scene_file(document: Document) -> SceneFile | None:

@@ -95,7 +95,7 @@ class _Assembly(GltfScene):
     ) -> None:
         work = Work(isolated=True)
         context = Context("", NOTHING_ELSE)
-        super().__init__(document, Accessors(document, chunk, context, work), work)
+        super().__init__(document, Accessors(document, chunk, context, work))
         self._primitives = [mesh.primitives for mesh in document.meshes]
         self._exchange = exchange
         self._options = options

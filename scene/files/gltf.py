@@ -59,8 +59,7 @@ def read_gltf(file: File) -> Document:
     unknown = UnknownNames()
     document = read_document(text, unknown)
     work = Work(isolated=file.isolated)
-    accessors = Accessors(document, chunk, file.context, work)
-    reader = GltfScene(document, accessors, work)
+    reader = GltfScene(document, Accessors(document, chunk, file.context, work))
     colliders = Colliders(document, unknown)
     warnings: list[tuple[str, str]] = []
     if geometry == "collision":
@@ -90,12 +89,11 @@ class GltfScene:
 
     kind = "node"
 
-    def __init__(self, document: GltfDocument, accessors: Accessors, work: Work) -> None:
-        self._work = work
+    def __init__(self, document: GltfDocument, accessors: Accessors) -> None:
         self.document = document
         self.accessors = accessors
         self.nodes = document.nodes
-        self.meshes = Meshes(document, accessors, work)
+        self.meshes = Meshes(document, accessors)
         self._copied = 0
         self._matrices: dict[int, Transform | None] = {}
 
@@ -275,7 +273,7 @@ class GltfScene:
         """The world matrix of a node; None: the identity."""
         matrix = self.matrix(node)
         for parent in self._above(node):
-            self._work.spend(8 * len(IDENTITY))
+            self.accessors.work.spend(8 * len(IDENTITY))
             matrix = multiply(self.matrix(parent), matrix)
         return matrix
 

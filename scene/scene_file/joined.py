@@ -12,7 +12,7 @@ from fnmatch import fnmatchcase
 from functools import cache
 from itertools import product
 from pathlib import PurePosixPath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -23,6 +23,9 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.rules import Rule, Selectable, Selector, stated_keys
 from satcheck.scene.statics import KEYS, BodyRule, StaticsTerms, joined_terms
+
+if TYPE_CHECKING:
+    from satcheck.scene.building import Input
 
 Bodies = Sequence[Body | Unreadable]
 
@@ -138,11 +141,21 @@ def _is_of(file: str, pattern: str) -> bool:
     return any(fnmatchcase(name, pattern) for name in (file, PurePosixPath(file).name))
 
 
-def joined(scene: Scene, files: Sequence[Joined], *, alone: bool) -> Scene:
-    """The scene with what its scene files state. alone: its bodies are of one input. Raises Refused
-    if a rule has to be expanded into too many pairs, and SatcheckError if they differ."""
-    if not files:
-        return scene
+def joined(scene: Scene, inputs: Sequence[Input], scales: Mapping[str, float]) -> Scene:
+    """The scene with what its scene files state. scales: path of a file -> the factor of its
+    lengths. Raises Refused if a rule has to be expanded into too many pairs, and SatcheckError if
+    they differ."""
+    files = [
+        Joined(
+            each.document,
+            dict(zip((item.id for item in each.document.items), each.ids, strict=True)),
+            each.groups,
+            scales.get(each.document.path, 1.0),
+        )
+        for each in inputs
+        if isinstance(each.document, SceneFile)
+    ]
+    alone = sum(each.document.kind != "rules" for each in inputs) == 1
     everybody: Bodies = [*scene.bodies, *scene.unreadable]
     placed = {id_ for each in files for id_ in each.ids.values()}
     bare = [body for body in everybody if body.id not in placed]
