@@ -134,7 +134,9 @@ class SceneText:
         errors.sort(key=lambda error: error.line or 0)
         if left := len(self._wrong[MOST:]):
             errors.append(Refused("bad-scene", f"{left} more errors", file=self.path))
-        raise Refused.combined(errors)
+        first, *others = errors
+        first.others = tuple(others)
+        raise first
 
 
 def dotted(keys: Keys) -> str:
