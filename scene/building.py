@@ -32,7 +32,6 @@ from satcheck.scene.units import (
 if TYPE_CHECKING:
     from satcheck.scene.planar.outline import Shape
     from satcheck.scene.robot import Srdf
-    from satcheck.scene.scene_file.joined import SceneFile
 
 
 class Input(Struct):
@@ -55,6 +54,10 @@ class Input(Struct):
     def readable(self) -> list[Body]:
         """Return the bodies that can be used."""
         return [body for body in self.bodies if isinstance(body, Body)]
+
+    def named(self) -> Iterator[tuple[Item, str]]:
+        """Return its items, each with its id in the check."""
+        return zip(self.document.items, self.ids, strict=True)
 
     def id_of(self, item: Item) -> str:
         """Return the id that is wanted for an item."""
@@ -109,14 +112,12 @@ class SceneBuilder:
         buildings and stages are one group, unless rules of the file name the group.
         """
         named = dict.fromkeys(group for item in document.items for group in item.groups)
-        scene_file = _scene_file(document)
-        if scene_file is not None:
-            named |= dict.fromkeys(sorted(scene_file.ignore_within_groups))
+        named |= dict.fromkeys(sorted(document.ignore_within_groups))
         if not named:
             return {}
         own = {group for rule in document.pairs if rule.of_groups for group in (rule.a, rule.b)}
         prefix = f"{document.name}: " if document.robot else ""
-        if prefix or scene_file is not None:
+        if document.has_own_groups:
             own = {*named}
         groups = {}
         for group in named:
@@ -232,26 +233,17 @@ class SceneBuilder:
             composed=any(each.document.kind != "mesh" or len(each.bodies) > 1 for each in inputs),
             issues=(*issues, *_unclear_axes(inputs, issues)),
         )
-        if any(map(_scene_file, (each.document for each in self._inputs))):
-            from satcheck.scene.scene_file.joined import joined
+        if not any(each.document.kind in ("scene", "rules") for each in self._inputs):
+            return scene
+        from satcheck.scene.scene_file.joined import joined
 
-            scene = joined(scene, self._inputs, common.scales)
-        return scene
-
-
-def _scene_file(document: Document) -> SceneFile | None:
-    """The document if it is a scene file; None: another input."""
-    if document.kind not in ("scene", "rules"):
-        return None
-    from satcheck.scene.scene_file.joined import SceneFile
-
-    return document if isinstance(document, SceneFile) else None
+        return joined(scene, self._inputs, common.scales)
 
 
 def _rules(added: Input) -> Iterator[Rule]:
     """The rules of a document about its own items and groups."""
     path, pairs = added.document.path, added.document.pairs
-    ids = dict(zip((item.path or "" for item in added.document.items), added.ids, strict=True))
+    ids = {item.path or "": id_ for item, id_ in added.named()}
     for rule in pairs:
         select = Selector.exactly_group if rule.of_groups else Selector.exactly
         names = added.groups if rule.of_groups else ids

@@ -11,7 +11,7 @@ import os
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
 
 from msgspec import Struct
 
@@ -167,8 +167,11 @@ class Document(Struct, frozen=True, tag=True):
     no single part. units: as it declares them; of a reader: of exact shapes. pairs: rules for two
     items, or for two groups, of which a later one overrides an earlier one. joints: as the file
     places their links. issues: that concern no single item. robot: its links and joints, if it is
-    the file of a robot.
+    the file of a robot. ignore_within_groups: groups whose bodies are not checked against each
+    other. has_own_groups: its groups are none of another document, even if they have one name.
     """
+
+    has_own_groups: ClassVar[bool] = False
 
     parts: tuple[RawPart, ...] = ()
     items: tuple[Item, ...] = ()
@@ -181,6 +184,7 @@ class Document(Struct, frozen=True, tag=True):
     kind: Kind = "mesh"
     issues: tuple[Issue, ...] = ()
     robot: Robot | None = None
+    ignore_within_groups: frozenset[str] = frozenset()
 
     @property
     def moves(self) -> bool:

@@ -3,7 +3,7 @@ documents with joints."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
@@ -25,7 +25,7 @@ def with_robots(
     """Return the scene with its robots, at rest. Raises Refused."""
     robots = with_srdfs([_robot(each) for each in inputs if each.document.robot], srdfs)
     jointed = [
-        (each.document, dict(_links(each)))
+        (each.document, {id_: item.link for item, id_ in each.named() if item.link})
         for each in inputs
         if each.document.moves and not each.document.robot
     ]
@@ -48,14 +48,7 @@ def _robot(added: Input) -> SceneRobot:
     document = added.document
     assert document.robot is not None
     own, bodies = [], {body.id: body for body in added.readable}
-    for item, id_ in zip(document.items, added.ids, strict=True):
+    for item, id_ in added.named():
         placed = bodies[id_].transform if id_ in bodies else item.transform
         own.append(RobotBody(id_, item.link or "", placed or IDENTITY, item.groups))
     return SceneRobot(document.robot, tuple(own), groups=added.groups)
-
-
-def _links(added: Input) -> Iterator[tuple[str, str]]:
-    """The bodies of rigid bodies: (id, link)."""
-    for item, id_ in zip(added.document.items, added.ids, strict=True):
-        if item.link:
-            yield id_, item.link

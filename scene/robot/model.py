@@ -187,4 +187,5 @@ class RobotDocument(Document, frozen=True, kw_only=True):
     """A robot and issues, as its reader returns them, also from a child process. Its items follow
     from the links (`assembly.document_of_robot`)."""
 
+    has_own_groups = True
     robot: Robot

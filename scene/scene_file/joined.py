@@ -37,7 +37,7 @@ class SceneFile(Document, frozen=True, kw_only=True):
     refer to bodies of this file only. reading: the options with which its mesh files are read, by
     their names. accept: issues that may stay."""
 
-    ignore_within_groups: frozenset[str]
+    has_own_groups = True
     check_static: bool
     rules: tuple[Rule, ...]
     motions: tuple[Motion, ...] = ()
@@ -148,13 +148,15 @@ def joined(scene: Scene, inputs: Sequence[Input], scales: Mapping[str, float]) -
     files = [
         Joined(
             each.document,
-            dict(zip((item.id for item in each.document.items), each.ids, strict=True)),
+            {item.id: id_ for item, id_ in each.named()},
             each.groups,
             scales.get(each.document.path, 1.0),
         )
         for each in inputs
         if isinstance(each.document, SceneFile)
     ]
+    if not files:
+        return scene
     alone = sum(each.document.kind != "rules" for each in inputs) == 1
     everybody: Bodies = [*scene.bodies, *scene.unreadable]
     placed = {id_ for each in files for id_ in each.ids.values()}
