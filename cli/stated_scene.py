@@ -19,7 +19,8 @@ from satcheck.scene.document import FilePart
 from satcheck.scene.files.nodes import CORNER
 from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
-from satcheck.scene.opening import Permitted, read_whole
+from satcheck.scene.opening import read_whole
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.outline import shape_from
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import os
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
 
 from msgspec import Struct
 
@@ -141,10 +141,10 @@ class RawJoint(Struct, frozen=True):
 
 
 class RawRule(Struct, frozen=True):
-    """A rule of a document for the pairs of two nodes, or of two groups. reason: a text.
+    """A rule of a document for the pairs of two nodes or links, or of two groups. reason: a text.
 
-    a, b: paths of nodes, or names of groups. severity: of findings about the pair; None: it may
-    overlap, and nothing is computed.
+    a, b: paths of nodes, links of a robot, or names of groups. severity: of findings about the
+    pair; None: it may overlap, and nothing is computed, unless it is `checked` nevertheless.
     """
 
     a: str
@@ -152,6 +152,12 @@ class RawRule(Struct, frozen=True):
     reason: str
     of_groups: bool = False
     severity: RuleSeverity | None = None
+    checked: bool = False
+
+    @classmethod
+    def within(cls, group: str, reason: str) -> RawRule:
+        """Return that for the members of one group, which may overlap."""
+        return cls(group, group, reason, of_groups=True)
 
 
 class Document(Struct, frozen=True, tag=True):
@@ -161,8 +167,11 @@ class Document(Struct, frozen=True, tag=True):
     no single part. units: as it declares them; of a reader: of exact shapes. pairs: rules for two
     items, or for two groups, of which a later one overrides an earlier one. joints: as the file
     places their links. issues: that concern no single item. robot: its links and joints, if it is
-    the file of a robot.
+    the file of a robot. ignore_within_groups: groups whose bodies are not checked against each
+    other. has_own_groups: its groups are none of another document, even if they have one name.
     """
+
+    has_own_groups: ClassVar[bool] = False
 
     parts: tuple[RawPart, ...] = ()
     items: tuple[Item, ...] = ()
@@ -175,6 +184,12 @@ class Document(Struct, frozen=True, tag=True):
     kind: Kind = "mesh"
     issues: tuple[Issue, ...] = ()
     robot: Robot | None = None
+    ignore_within_groups: frozenset[str] = frozenset()
+
+    @property
+    def moves(self) -> bool:
+        """Return whether joints may move its links: it is a robot, or like one."""
+        return self.robot is not None or any(joint.kind != "fixed" for joint in self.joints)
 
     def check(self) -> None:
         """Refuse what no reader may return, as a reader of another package may. Raises Refused.

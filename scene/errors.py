@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from satcheck.core.errors import SatcheckError
 
 
@@ -30,13 +28,6 @@ class Refused(SatcheckError):
     def with_line(self) -> str:
         """The message, after its line."""
         return self.message if self.line is None else f"line {self.line}: {self.message}"
-
-    @classmethod
-    def combined(cls, errors: Sequence[Refused]) -> Refused:
-        """The first error, with the others attached."""
-        first, *others = errors
-        first.others = tuple(others)
-        return first
 
     def __str__(self) -> str:
         if self.line is None:

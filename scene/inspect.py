@@ -13,7 +13,6 @@ import hashlib
 import json
 import math
 from collections.abc import Callable
-from functools import partial
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -86,11 +85,11 @@ def mesh_file(
         vertices = len(raw.vertices) // 24
         has = f"{vertices} vertices but" if vertices else "no vertices and"
         raise Refused("empty-mesh", f"empty mesh: {has} no triangles")
-    resolution = partial(resolution_of, raw)
-    if mesh is None:
-        examined = examine_bytes(raw.vertices, raw.triangles, resolution)
+    if mesh is None:  # none is built only to be inspected
+        inspection = inspect_bytes(raw.vertices, raw.triangles, True)
     else:
-        examined = examine(mesh, resolution=resolution)
+        inspection = inspect(mesh, True)
+    examined = _examined(inspection, lambda mesh: file_resolution(raw, mesh.largest_coordinate))
     largest = examined.mesh.largest_coordinate
     precision = file_resolution(raw, largest)
     far = far_vertex(raw, examined.mesh, largest, precision)
@@ -108,11 +107,6 @@ def mesh_file(
         placement_step=placement_step(raw, by_file=placed),
         surface_tolerance=raw.surface_tolerance,
     )
-
-
-def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
-    """Return the precision of the coordinates of the mesh."""
-    return file_resolution(raw, mesh.largest_coordinate)
 
 
 def shape_file(shape: Shape, path: str) -> MeshFile:
@@ -202,26 +196,14 @@ def examine(mesh: Mesh, *, orient: bool = True, resolution: Resolution = _exact)
     resolution: computes the precision of the coordinates; called only if the mesh has a boundary.
     Raises Refused (without a file name) when no triangle has an area.
     """
-    return _judged(_sealed(inspect(mesh, orient), orient, resolution))
+    return _examined(inspect(mesh, orient), resolution, orient=orient)
 
 
-def examine_bytes(
-    vertices: bytes | memoryview,
-    triangles: bytes | memoryview,
-    resolution: Resolution = _exact,
-) -> Examined:
-    """Same as examine(Mesh.from_bytes(vertices, triangles)), but builds no temporary mesh."""
-    return _judged(_sealed(inspect_bytes(vertices, triangles, True), True, resolution))
-
-
-def _sealed(inspection: Inspection, orient: bool, resolution: Resolution) -> Inspection:
+def _examined(inspection: Inspection, resolution: Resolution, *, orient: bool = True) -> Examined:
     after = inspection.repaired
-    if after.closed and after.oriented:
-        return inspection
-    return with_cracks_closed(inspection, orient, CRACK_WIDTH * resolution(inspection.mesh))
-
-
-def _judged(inspection: Inspection) -> Examined:
+    if not (after.closed and after.oriented):
+        width = CRACK_WIDTH * resolution(inspection.mesh)
+        inspection = with_cracks_closed(inspection, orient, width)
     topology, after, turned = inspection.topology, inspection.repaired, inspection.turned
     if topology.degenerate_triangles == topology.triangles:
         raise Refused(

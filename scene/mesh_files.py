@@ -33,18 +33,11 @@ from satcheck.scene.files.readers import (
     required_reader,
 )
 from satcheck.scene.files.reading_children import ReadingChildren, read_in_child
+from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
 from satcheck.scene.inspect import ErrorsOf, remeshed, shape_file
 from satcheck.scene.issue import Issue
-from satcheck.scene.opening import (
-    LARGE_FILE_BYTES,
-    FilesRead,
-    StrPath,
-    files_read,
-    note,
-    note_lost_reader,
-    open_file,
-    suffix_of,
-)
+from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, suffix_of
+from satcheck.scene.permitted import StrPath
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:

@@ -19,7 +19,8 @@ from satcheck.scene.document import FilePart
 from satcheck.scene.files.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation, Waypoint
-from satcheck.scene.opening import followed, is_file
+from satcheck.scene.opening import is_file
+from satcheck.scene.permitted import followed
 from satcheck.scene.rules import PLACE, Rule, Selector
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1

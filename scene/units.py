@@ -18,12 +18,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
-from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body, Unreadable
+from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
-    from satcheck.scene.document import Document, Kind
+    from satcheck.scene.building import Input
+    from satcheck.scene.document import Kind
 
 # Micrometres in one unit. They are whole numbers, so that a conversion rounds once.
 MICROMETRES = {"um": 1, "mm": 1_000, "cm": 10_000, "m": 1_000_000, "in": 25_400, "ft": 304_800}
@@ -124,22 +125,6 @@ def is_unit(declared: str) -> bool:
     """Whether a declaration begins with a unit."""
     first = declared.partition("(")[0].split()[:1]
     return bool(first) and unit_of(first[0]) is not None
-
-
-class Input(Struct):
-    """A document in the check.
-
-    unit: meant by the units that it declares, or given for inputs that declare none; None: unknown.
-    groups: in the file -> in the check. ids: of its items in the check. bodies: of these items,
-    and readable: those of them that can be used.
-    """
-
-    document: Document
-    unit: str | None
-    groups: Mapping[str, str]
-    ids: list[str] = []
-    bodies: list[Body | Unreadable] = []
-    readable: list[Body] = []
 
 
 class InOneUnit(Struct, frozen=True):

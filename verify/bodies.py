@@ -22,7 +22,7 @@ from satcheck.scene.files.readers import ReadLimits, ReadOptions
 from satcheck.scene.half_spaces import holds
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.opening import Permitted
+from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.verify.curved import Curved

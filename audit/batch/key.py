@@ -18,7 +18,8 @@ from satcheck.audit.batch import remote
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.core.plugins import versions
 from satcheck.report.assets import InputFile
-from satcheck.scene.opening import FilesRead, Permitted, Signature, search_path
+from satcheck.scene.files_read import FilesRead, Signature
+from satcheck.scene.permitted import Permitted, search_path
 
 _MOST_DIGESTS = 5_000
 _BLOCK_BYTES = 1 << 18
@@ -60,9 +61,9 @@ class Digests:
 
     def digest(self, files: FilesRead, name: str) -> str | None:
         """files: the name is one of them."""
-        if (made := files.digest(name)) is not None:
-            return made
-        at = files.signature(name)
+        if name in files.digests:
+            return files.digests[name]
+        at = files.signatures[name]
         known = self._known.pop(name, None)
         if known is None or known[0] != at:
             known = at, digest(name)

@@ -10,7 +10,8 @@ from typing import Any
 
 import mujoco
 
-from satcheck.scene.robot.model import Exemption, Mask, told_apart
+from satcheck.scene.document import RawRule
+from satcheck.scene.robot.model import Mask, told_apart
 
 _WORLD = 0
 _STATIC = "static"
@@ -51,30 +52,28 @@ class Exemptions:
             groups.append(self._geom(geom))
         return tuple(groups)
 
-    def exempt(self) -> Iterator[Exemption]:
+    def exempt(self) -> Iterator[RawRule]:
         yield from self._by_weld()
         yield from self._of_masks
         yield from self._by_parent()
         for signature in self._model.exclude_signature.tolist():
             a, b = signature >> 16, signature & 0xFFFF
-            yield Exemption(self._bodies[a], self._bodies[b], "MJCF: exclude")
+            yield RawRule(self._bodies[a], self._bodies[b], "MJCF: exclude")
         for a, b in self._pairs:
-            yield Exemption(
-                self._geom(a), self._geom(b), "MJCF: pair", of_groups=True, checked=True
-            )
+            yield RawRule(self._geom(a), self._geom(b), "MJCF: pair", of_groups=True, checked=True)
 
     def _is_static(self, body: int) -> bool:
         """Whether no joint moves it; a mocap body is static."""
         return bool(self._model.body_treeid[body] < 0)
 
-    def _by_weld(self) -> Iterator[Exemption]:
-        yield Exemption.within(_STATIC, "MJCF: both static")
+    def _by_weld(self) -> Iterator[RawRule]:
+        yield RawRule.within(_STATIC, "MJCF: both static")
         for weld, names in self._welded.items():
             if len(names) > 1 and not self._is_static(weld):
                 reason = "MJCF: welded together, no joint between"
-                yield Exemption.within(self._weld(weld), reason)
+                yield RawRule.within(self._weld(weld), reason)
 
-    def _by_parent(self) -> Iterator[Exemption]:
+    def _by_parent(self) -> Iterator[RawRule]:
         """Welded bodies count as one; no body is exempt from those that are welded to the world."""
         m = self._model
         if m.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_FILTERPARENT:
@@ -83,7 +82,7 @@ class Exemptions:
             above = int(m.body_weldid[m.body_parentid[weld]])
             if weld != _WORLD and above != _WORLD:
                 for a, b in product(self._welded[above], names):
-                    yield Exemption(a, b, "MJCF: parent and child")
+                    yield RawRule(a, b, "MJCF: parent and child")
 
     def _weld(self, weld: int) -> str:
         return f"welded to {self._bodies[weld]}"

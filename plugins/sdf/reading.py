@@ -19,12 +19,12 @@ from satcheck.plugins.sdf.frames import WORLD
 from satcheck.plugins.sdf.includes import Includes
 from satcheck.plugins.sdf.joints import JointEntry, joint_of
 from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.document import RawRule
 from satcheck.scene.files.readers import File
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.elements import check_mimics
 from satcheck.scene.robot.model import (
     Collision,
-    Exemption,
     Joint,
     Link,
     Robot,
@@ -105,7 +105,7 @@ def _joint(joint: JointEntry, contents: Contents, slips: Slips) -> Joint | None:
 
 def _exempt(
     links: Mapping[str, LinkEntry], parts: Mapping[str, Sequence[Part]]
-) -> tuple[dict[str, tuple[Collision, ...]], list[Exemption]]:
+) -> tuple[dict[str, tuple[Collision, ...]], list[RawRule]]:
     """(the collisions of each link, with their groups, the exemptions but for those of joints).
     parts: of each link."""
     apart, exempted = told_apart((part.mask for own in parts.values() for part in own), "SDF")
@@ -121,15 +121,15 @@ def _exempt(
             replace(part.collision, groups=(*own, *apart.intersection([part.mask.name])))
             for part in parts[path]
         )
-    return collisions, [*exempted, *starmap(Exemption.within, reasons.items())]
+    return collisions, [*exempted, *starmap(RawRule.within, reasons.items())]
 
 
-def _joined(joints: Iterable[Joint], contents: Contents) -> Iterator[Exemption]:
+def _joined(joints: Iterable[Joint], contents: Contents) -> Iterator[RawRule]:
     """Not with a model that is not read: its other links are checked."""
     unchecked = {WORLD, *contents.frames.opaque}
     for joint in joints:
         if unchecked.isdisjoint((joint.parent, joint.child)):
-            yield Exemption(joint.parent, joint.child, f"SDF: joint {joint.name}")
+            yield RawRule(joint.parent, joint.child, f"SDF: joint {joint.name}")
 
 
 def _starts(contents: Contents) -> Iterator[str]:

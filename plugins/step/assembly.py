@@ -25,7 +25,7 @@ from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primit
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Shape
 from satcheck.scene.files.placing import Instance, raw_scene, tidy_name
 from satcheck.scene.files.readers import File, imported
-from satcheck.scene.opening import NOTHING_ELSE, Context
+from satcheck.scene.permitted import NOTHING_ELSE, Context
 from satcheck.scene.words import listed
 
 _MILLIMETRES = 1000.0  # in the metre of glTF
@@ -95,7 +95,7 @@ class _Assembly(GltfScene):
     ) -> None:
         work = Work(isolated=True)
         context = Context("", NOTHING_ELSE)
-        super().__init__(document, Accessors(document, chunk, context, work), work)
+        super().__init__(document, Accessors(document, chunk, context, work))
         self._primitives = [mesh.primitives for mesh in document.meshes]
         self._exchange = exchange
         self._options = options

@@ -15,7 +15,8 @@ from typing import Any
 from pxr import Ar, Sdf, Tf
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.opening import Context, exists, is_folder, size_of
+from satcheck.scene.opening import exists, is_folder, size_of
+from satcheck.scene.permitted import Context
 
 
 class Closed:

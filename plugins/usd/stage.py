@@ -15,7 +15,8 @@ from satcheck.plugins.usd.names import LOOKS
 from satcheck.plugins.usd.outside import Closed, clips_of, file_of
 from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.opening import File, note
+from satcheck.scene.files_read import note
+from satcheck.scene.opening import File
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 

@@ -25,7 +25,7 @@ from satcheck.scene.document import (
 )
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.collada_vocabulary import look_at
-from satcheck.scene.files.nodes import flattened
+from satcheck.scene.files.nodes import concatenate, flattened
 from satcheck.scene.files.placing import Instance, instances, multiply, raw_scene, tidy_name
 from satcheck.scene.files.polygons import triangles_of
 from satcheck.scene.files.readers import File
@@ -99,15 +99,11 @@ class _Document:
         return replace(read, warnings=(*self._warnings.items(), *self._beside()))
 
     def _joined(self, geometries: tuple[Element, ...], units: str) -> RawMesh:
-        meshes = [self._mesh_of(geometry) for geometry in geometries]
-        starts = np.cumsum([0, *(len(points) for points, _ in meshes)])
-        moved = [each + start for (_, each), start in zip(meshes, starts, strict=False)]
-        return RawMesh(
-            vertices=np.concatenate([points for points, _ in meshes]).astype("<f8").tobytes(),
-            triangles=np.concatenate(moved).astype("<u4").tobytes(),
-            number_format="float32",
-            units=units,
+        meshes = map(self._mesh_of, geometries)
+        vertices, triangles = concatenate(
+            [(p.astype("<f8").tobytes(), t.astype("<u4").tobytes(), None) for p, t in meshes]
         )
+        return RawMesh(vertices, triangles, number_format="float32", units=units)
 
     def _beside(self) -> tuple[tuple[str, str], ...]:
         """What is not read."""

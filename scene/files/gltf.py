@@ -59,8 +59,7 @@ def read_gltf(file: File) -> Document:
     unknown = UnknownNames()
     document = read_document(text, unknown)
     work = Work(isolated=file.isolated)
-    accessors = Accessors(document, chunk, file.context, work)
-    reader = GltfScene(document, accessors, work)
+    reader = GltfScene(document, Accessors(document, chunk, file.context, work))
     colliders = Colliders(document, unknown)
     warnings: list[tuple[str, str]] = []
     if geometry == "collision":
@@ -90,12 +89,11 @@ class GltfScene:
 
     kind = "node"
 
-    def __init__(self, document: GltfDocument, accessors: Accessors, work: Work) -> None:
-        self._work = work
+    def __init__(self, document: GltfDocument, accessors: Accessors) -> None:
         self.document = document
         self.accessors = accessors
         self.nodes = document.nodes
-        self.meshes = Meshes(document, accessors, work)
+        self.meshes = Meshes(document, accessors)
         self._copied = 0
         self._matrices: dict[int, Transform | None] = {}
 
@@ -136,9 +134,7 @@ class GltfScene:
             groups = () if body is None else (f"rigid body {body}",)
             nodes.append(Item(number, one.path, matrix, groups=groups))
         bodies = dict.fromkeys(group for node in nodes for group in node.groups)
-        rules = [
-            RawRule(name, name, "colliders of one rigid body", of_groups=True) for name in bodies
-        ]
+        rules = [RawRule.within(name, "colliders of one rigid body") for name in bodies]
         note = "left-out", "colliders are checked: meshes that are no collider have no body"
         return Document(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
 
@@ -277,7 +273,7 @@ class GltfScene:
         """The world matrix of a node; None: the identity."""
         matrix = self.matrix(node)
         for parent in self._above(node):
-            self._work.spend(8 * len(IDENTITY))
+            self.accessors.work.spend(8 * len(IDENTITY))
             matrix = multiply(self.matrix(parent), matrix)
         return matrix
 

@@ -30,7 +30,7 @@ from satcheck.scene.files.gltf_document import (
     SparseValues,
 )
 from satcheck.scene.files.readers import NeedsChild
-from satcheck.scene.opening import Context
+from satcheck.scene.permitted import Context
 
 _GLB_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
 _CHUNK_HEADER = struct.Struct("<II")  # length, type
@@ -108,7 +108,8 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
 class Accessors:
     """The accessors of a document as arrays. A buffer is read when it is first used.
 
-    chunk: the binary chunk of a GLB file. context: finds files with buffers. Raises Refused.
+    chunk: the binary chunk of a GLB file. context: finds files with buffers. work: of all of the
+    file. Raises Refused.
     """
 
     def __init__(
@@ -123,7 +124,7 @@ class Accessors:
         self._infos = document.buffers
         self._chunk = chunk
         self._context = context
-        self._work = work
+        self.work = work
         self._buffers: dict[int, memoryview] = {}
         self._unpacked: dict[int, memoryview] = {}
         self._made_bytes = 0
@@ -203,7 +204,7 @@ class Accessors:
         if accessor.type != kind:
             raise Refused("bad-record", f"{what}: {kind} expected")
         code, count, columns = _CODES[accessor.component_type], accessor.count, _COLUMNS[kind]
-        self._work.spend(count * columns * _BYTES_OF_NUMBER)
+        self.work.spend(count * columns * _BYTES_OF_NUMBER)
         row = columns * _SIZES[code]
         if accessor.buffer_view != NONE and not accessor.sparse:
             data, stride = self._range(accessor, what, count, row)
@@ -299,7 +300,7 @@ class Accessors:
             message = f"{packed.count} elements of {packed.byte_stride} bytes are not its length"
             raise Refused("count-mismatch", f"{where}: {message}")
         self._make(size, f"{where}, unpacked")
-        self._work.spend(size)
+        self.work.spend(size)
         stream = bytes(self._bytes(packed, where))
         unpacked = readers.unpack_meshopt(
             stream, packed.mode, packed.count, packed.byte_stride, packed.filter
@@ -357,5 +358,5 @@ class Accessors:
             raise Refused("outside-path", f"buffer {name!r} is not a relative path: refused")
         with self._context.open(f"buffer file {name!r}", name) as (file, there):
             size = min(size, there)
-            self._work.spend(size)
+            self.work.spend(size)
             return read_file(file.fileno(), size)

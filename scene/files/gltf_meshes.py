@@ -18,11 +18,7 @@ from satcheck.scene.document import (
     strip_triangles,
 )
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.gltf_buffers import (
-    Accessors,
-    Columns,
-    Work,
-)
+from satcheck.scene.files.gltf_buffers import Accessors, Columns
 from satcheck.scene.files.gltf_document import (
     DRACO,
     NONE,
@@ -67,10 +63,9 @@ class Skin(Struct, frozen=True):
 
 
 class Meshes:
-    def __init__(self, document: GltfDocument, accessors: Accessors, work: Work) -> None:
+    def __init__(self, document: GltfDocument, accessors: Accessors) -> None:
         self._meshes = document.meshes
         self._accessors = accessors
-        self._work = work
         self._requires_draco = DRACO in document.stated.extensions_required
 
     def read(self, shape: Shape, skin: Skin | None) -> RawMesh:
@@ -122,7 +117,7 @@ class Meshes:
         )
         packed = primitive.extension(DRACO, Draco, where)
         if packed is not None and (self._requires_draco or not has_data):
-            if not self._work.isolated:
+            if not self._accessors.work.isolated:
                 raise NeedsChild
             from satcheck.scene.files.gltf_draco import Unpacked
 

@@ -1,5 +1,5 @@
-"""Limits of what a file makes. Each guards against small files that become huge. `opening.py` has
-those of sizes."""
+"""Limits of what a file makes. Each guards against small files that become huge. `permitted.py`
+has those of sizes."""
 
 from __future__ import annotations
 

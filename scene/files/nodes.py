@@ -27,7 +27,7 @@ from satcheck.scene.document import (
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.readers import File
-from satcheck.scene.inspect import CRACK_WIDTH, ErrorsOf, mesh_file, resolution_of
+from satcheck.scene.inspect import CRACK_WIDTH, ErrorsOf, file_resolution, mesh_file
 from satcheck.scene.issue import BLOCKING, issue
 from satcheck.scene.opening import name_of
 
@@ -130,7 +130,11 @@ def _shapes_of(file: File, part: RawPart, said: list[tuple[str, str]], *, apart:
 def _components(file: File, part: RawPart, raw: RawMesh, mesh: Mesh) -> Marked:
     """Return the components of a mesh if it has several, and an error for each of area 0; nothing
     if all are."""
-    pieces = mesh.welded().sorted().components(CRACK_WIDTH * resolution_of(raw, mesh))
+    pieces = (
+        mesh.welded()
+        .sorted()
+        .components(CRACK_WIDTH * file_resolution(raw, mesh.largest_coordinate))
+    )
     if len(pieces) < 2:
         return []
     limits.refuse_many(len(pieces), "components")

@@ -28,7 +28,8 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.opening import File as File
 from satcheck.scene.opening import ReadLimits as ReadLimits
-from satcheck.scene.opening import StrPath, size_of, suffix_of
+from satcheck.scene.opening import size_of, suffix_of
+from satcheck.scene.permitted import StrPath
 from satcheck.scene.words import meant
 
 T = TypeVar("T")
@@ -322,12 +323,16 @@ def required_reader(ending: str) -> Reader:
     reader = reader_of(ending)
     if reader is not None:
         return reader
-    meshes = ", ".join(sorted(filter(mesh_reader, readers())))
     others = ", ".join(sorted((*SCENE_SUFFIXES, *robot_endings(), ".srdf")))
-    known = f"known are {meshes}, and of scenes and robots {others}"
+    known = f"known are {mesh_endings()}, and of scenes and robots {others}"
     hint = _CONVERTIBLE.get(ending.lower(), known)
     message = f"unsupported format {ending!r}: {hint}{failures('readers', KINDS)}"
     raise Refused("unsupported-format", message)
+
+
+def mesh_endings() -> str:
+    """Return the endings of files that are meshes or documents, for messages."""
+    return ", ".join(sorted(filter(mesh_reader, readers())))
 
 
 def mesh_reader(suffix: str) -> Reader | None:

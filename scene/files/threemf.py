@@ -24,7 +24,7 @@ from satcheck.scene.files.threemf_model import ENCODINGS, Model, Object, part_na
 from satcheck.scene.files.threemf_vocabulary import RELATIONSHIP, RELATIONSHIPS, TYPES
 from satcheck.scene.files.xml_tree import read_elements
 from satcheck.scene.files.zip_guard import opened_zip, read_part
-from satcheck.scene.opening import Most
+from satcheck.scene.permitted import Most
 from satcheck.scene.vocabulary import UnknownNames
 from satcheck.scene.words import listed
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from satcheck.scene.errors import Refused
-from satcheck.scene.opening import Most
+from satcheck.scene.permitted import Most
 
 
 @contextmanager

@@ -4,12 +4,7 @@
 again. `RandomPoses` draws random poses.
 """
 
-from satcheck.scene.robot.assembly import (
-    RobotBody,
-    SceneRobot,
-    permissions,
-    with_srdfs,
-)
+from satcheck.scene.robot.assembly import RobotBody, SceneRobot
 from satcheck.scene.robot.joint_path import JointPath, with_joint_path
 from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.packages import FilePlaces
@@ -28,7 +23,6 @@ __all__ = [
     "RobotBody",
     "SceneRobot",
     "Srdf",
-    "permissions",
     "pose_of_states",
     "posed",
     "read_path",
@@ -36,5 +30,4 @@ __all__ = [
     "read_srdf",
     "settle",
     "with_joint_path",
-    "with_srdfs",
 ]

@@ -17,7 +17,7 @@ from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.document import Document, Refusal
+from satcheck.scene.document import Document, RawRule, Refusal
 
 JointKind = Literal[
     "revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball", "free"
@@ -50,7 +50,7 @@ class Collision(Struct, frozen=True):
     """One <collision> of a link, or one <visual> if these are checked.
 
     origin: its pose in the link's frame. line: in the file that states it; for refused geometry,
-    the line of the wrong element. file: its path; "": that of the robot. groups: see `Exemption`.
+    the line of the wrong element. file: its path; "": that of the robot. groups: see `RawRule`.
     """
 
     name: str | None
@@ -130,22 +130,6 @@ class Joint(Struct, frozen=True):
         return self.freedoms > 0 and self.mimic is None
 
 
-class Exemption(Struct, frozen=True):
-    """Bodies that need no check against each other, as the format says. a, b: two links, or two
-    groups of collisions, which may be the same. checked: these are checked nevertheless."""
-
-    a: str
-    b: str
-    reason: str
-    of_groups: bool = False
-    checked: bool = False
-
-    @classmethod
-    def within(cls, group: str, reason: str) -> Exemption:
-        """Return that of the members of one group."""
-        return cls(group, group, reason, of_groups=True)
-
-
 class Mask(NamedTuple):
     """Two collisions are checked if the bits of one and those that the other meets share one.
     name: of the group of the collisions with this mask."""
@@ -159,11 +143,11 @@ class Mask(NamedTuple):
         return bool(self.bits or self.meets)
 
 
-def told_apart(masks: Iterable[Mask], format_name: str) -> tuple[set[str], list[Exemption]]:
+def told_apart(masks: Iterable[Mask], format_name: str) -> tuple[set[str], list[RawRule]]:
     """(the groups of masks that have to be told apart, the exemptions of those that share no
     bit)."""
     exempt = [
-        Exemption(a.name, b.name, f"{format_name}: {a.name} and {b.name} share no bit", True)
+        RawRule(a.name, b.name, f"{format_name}: {a.name} and {b.name} share no bit", True)
         for a, b in combinations_with_replacement(sorted({*masks}), 2)
         if not (a.bits & b.meets or b.bits & a.meets)
     ]
@@ -195,7 +179,7 @@ class Robot(Struct, frozen=True):
     roots: dict[str, Transform]
     links: dict[str, Link]
     joints: tuple[Joint, ...]
-    exempt: tuple[Exemption, ...] | None = None
+    exempt: tuple[RawRule, ...] | None = None
     states: tuple[State, ...] = ()
 
 
@@ -203,4 +187,5 @@ class RobotDocument(Document, frozen=True, kw_only=True):
     """A robot and issues, as its reader returns them, also from a child process. Its items follow
     from the links (`assembly.document_of_robot`)."""
 
+    has_own_groups = True
     robot: Robot

@@ -21,20 +21,16 @@ from msgspec.structs import replace
 
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.xml_tree import read_elements
-from satcheck.scene.opening import (
+from satcheck.scene.files_read import note, note_folders_in
+from satcheck.scene.opening import is_file, is_folder, read_whole, size_of
+from satcheck.scene.permitted import (
     NOTHING_ELSE,
     Context,
     Most,
     Permitted,
     folders_of_environment,
     followed,
-    is_file,
-    is_folder,
     no_file,
-    note,
-    note_folders_in,
-    read_whole,
-    size_of,
 )
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)

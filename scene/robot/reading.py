@@ -20,7 +20,8 @@ from satcheck.scene.files.xml_tree import (
     parse_xml,
     read_elements,
 )
-from satcheck.scene.opening import Permitted, StrPath, read_whole
+from satcheck.scene.opening import read_whole
+from satcheck.scene.permitted import Permitted, StrPath
 
 _ERB = b"<%"
 _EXPAND_ERB = "this is ERB, a macro language: expand it first (erb FILE.erb > FILE)"

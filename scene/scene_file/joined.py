@@ -12,7 +12,7 @@ from fnmatch import fnmatchcase
 from functools import cache
 from itertools import product
 from pathlib import PurePosixPath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -24,6 +24,9 @@ from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.rules import Rule, Selectable, Selector, stated_keys
 from satcheck.scene.statics import KEYS, BodyRule, StaticsTerms, joined_terms
 
+if TYPE_CHECKING:
+    from satcheck.scene.building import Input
+
 Bodies = Sequence[Body | Unreadable]
 
 MOST_PAIRS = 100_000  # of a rule that is expanded pair by pair
@@ -34,7 +37,7 @@ class SceneFile(Document, frozen=True, kw_only=True):
     refer to bodies of this file only. reading: the options with which its mesh files are read, by
     their names. accept: issues that may stay."""
 
-    ignore_within_groups: frozenset[str]
+    has_own_groups = True
     check_static: bool
     rules: tuple[Rule, ...]
     motions: tuple[Motion, ...] = ()
@@ -138,11 +141,23 @@ def _is_of(file: str, pattern: str) -> bool:
     return any(fnmatchcase(name, pattern) for name in (file, PurePosixPath(file).name))
 
 
-def joined(scene: Scene, files: Sequence[Joined], *, alone: bool) -> Scene:
-    """The scene with what its scene files state. alone: its bodies are of one input. Raises Refused
-    if a rule has to be expanded into too many pairs, and SatcheckError if they differ."""
+def joined(scene: Scene, inputs: Sequence[Input], scales: Mapping[str, float]) -> Scene:
+    """The scene with what its scene files state. scales: path of a file -> the factor of its
+    lengths. Raises Refused if a rule has to be expanded into too many pairs, and SatcheckError if
+    they differ."""
+    files = [
+        Joined(
+            each.document,
+            {item.id: id_ for item, id_ in each.named()},
+            each.groups,
+            scales.get(each.document.path, 1.0),
+        )
+        for each in inputs
+        if isinstance(each.document, SceneFile)
+    ]
     if not files:
         return scene
+    alone = sum(each.document.kind != "rules" for each in inputs) == 1
     everybody: Bodies = [*scene.bodies, *scene.unreadable]
     placed = {id_ for each in files for id_ in each.ids.values()}
     bare = [body for body in everybody if body.id not in placed]

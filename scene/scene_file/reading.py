@@ -20,10 +20,11 @@ from satcheck.core.shapes import HalfSpace
 from satcheck.scene.bodies import Entry
 from satcheck.scene.document import FilePart, Item
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.readers import mesh_reader, readers
+from satcheck.scene.files.readers import mesh_endings, mesh_reader
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.motion import Motion
-from satcheck.scene.opening import NOTHING_ELSE, Context, Permitted, suffix_of
+from satcheck.scene.opening import suffix_of
+from satcheck.scene.permitted import NOTHING_ELSE, Context, Permitted
 from satcheck.scene.rules import Rule, RuleKeys
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1
@@ -226,8 +227,7 @@ def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
         if part is not None:
             return replace(found(mesh, None), part=part)
         if mesh_reader(suffix_of(mesh)) is None:
-            known = ", ".join(sorted(filter(mesh_reader, readers())))
-            message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
+            message = f"mesh path {shown(mesh)} names no mesh format ({mesh_endings()}): refused"
             raise Wrong(message, "mesh", code="unsupported-format")
         try:
             place = context.find(f"mesh file {shown(mesh)}", mesh)

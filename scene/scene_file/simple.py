@@ -17,7 +17,7 @@ from typing import Any
 from satcheck.scene.bodies import Entry
 from satcheck.scene.document import Item
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.opening import ANYWHERE
+from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_file.document import Matrix, affine
 from satcheck.scene.scene_file.form import converted

@@ -20,7 +20,8 @@ from typing import Any, TypeVar
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.limits import MAX_DEPTH
-from satcheck.scene.opening import OWN_FILE, Most, read_whole
+from satcheck.scene.opening import read_whole
+from satcheck.scene.permitted import OWN_FILE, Most
 from satcheck.scene.table import Keys, Wrong
 from satcheck.scene.words import why_unreadable
 
@@ -133,7 +134,9 @@ class SceneText:
         errors.sort(key=lambda error: error.line or 0)
         if left := len(self._wrong[MOST:]):
             errors.append(Refused("bad-scene", f"{left} more errors", file=self.path))
-        raise Refused.combined(errors)
+        first, *others = errors
+        first.others = tuple(others)
+        raise first
 
 
 def dotted(keys: Keys) -> str:

@@ -328,7 +328,7 @@ def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
         return call
 
     monkeypatch.setattr(gltf.GltfScene, "mesh", counted("read", gltf.GltfScene.mesh))
-    monkeypatch.setattr(inspect, "examine", counted("examined", inspect.examine))
+    monkeypatch.setattr(inspect, "_examined", counted("examined", inspect._examined))
     nodes = [{"mesh": k % 2, "name": "n", "translation": [2 * k, 0, 0]} for k in range(1000)]
     scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes, "a", "b"))
     assert len(scene.bodies) == len({body.id for body in scene.bodies}) == 1000
