@@ -196,44 +196,19 @@ bool share_length(const Hinge& a, const Hinge& b, Budget* budget) {
   return low(a) < high(b) && low(b) < high(a);
 }
 
-bool same_half_plane(Vec3 p, Vec3 q, Vec3 u, Vec3 v, Budget* budget) {
-  if (orientation(p, q, u, v, budget) != 0) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int side = orientation_2d(p, q, u, axis, budget);
-    if (side != 0) return side == orientation_2d(p, q, v, axis, budget);
-  }
-  return true;
-}
-
 // Whether two wings of A and two of B alternate. Wings in one half-plane count once, and not if both have one there.
 bool alternate(const Hinge& a, const Hinge& b, Budget* budget) {
-  const Vec3 p = a.p, q = a.q;
-  struct Wing {
-    Vec3 at;
-    bool of_a;
-  };
-  std::vector<Wing> wings;
+  std::vector<Vec3> wings;  // of A first
+  std::size_t of_a = 0;
   for (const Hinge* hinge : {&a, &b}) {
-    for (const Vec3& at : hinge->wings) {
-      if (!collinear(p, q, at, budget)) wings.push_back({at, hinge == &a});
-    }
+    std::copy_if(hinge->wings.begin(), hinge->wings.end(), std::back_inserter(wings),
+                 [&](Vec3 wing) { return !collinear(a.p, a.q, wing, budget); });
+    if (hinge == &a) of_a = wings.size();
   }
-  if (wings.empty()) return false;
-  const Vec3 first = wings[0].at;
-  const auto quarter = [&](Vec3 at) {
-    const int turn = orientation(p, q, first, at, budget);
-    return turn == 0 ? (same_half_plane(p, q, first, at, budget) ? 0 : 2) : turn > 0 ? 1 : 3;
-  };
-  std::stable_sort(wings.begin(), wings.end(), [&](const Wing& u, const Wing& v) {
-    const int quarter_u = quarter(u.at), quarter_v = quarter(v.at);
-    return quarter_u != quarter_v ? quarter_u < quarter_v : orientation(p, q, u.at, v.at, budget) > 0;
-  });
-  std::vector<bool> around;  // whose wing it is
-  for (std::size_t i = 0; i < wings.size();) {
-    bool any[2] = {};
-    const std::size_t start = i;
-    for (; i < wings.size() && same_half_plane(p, q, wings[start].at, wings[i].at, budget); ++i) any[wings[i].of_a ? 0 : 1] = true;
-    if (any[0] != any[1]) around.push_back(any[0]);
+  std::vector<bool> around;  // whether a half-plane has wings of A
+  for (const auto& group : groups_around(a.p, a.q, wings, budget)) {
+    const auto [first, last] = std::minmax_element(group.begin(), group.end());
+    if ((*first < of_a) == (*last < of_a)) around.push_back(*first < of_a);
   }
   int changes = 0;
   for (std::size_t i = 0; i < around.size(); ++i) changes += around[i] != around[(i + 1) % around.size()] ? 1 : 0;
