@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/edge_table.hpp"
+#include "base/key_sort.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/plane_cells.hpp"
@@ -60,10 +61,9 @@ class Sheets {
   };
 
   void look_at(std::uint32_t t) {
-    const Corners c = corners(surface_.mesh, t);
     known_[t] = {};
     // A triangle that meets no other has material on one side.
-    if (collinear(c[0], c[1], c[2], budget_) || !has_irregular_partners(surface_, t, budget_)) return;
+    if (is_collinear(corners(surface_.mesh, t), budget_) || !has_irregular_partners(surface_, t, budget_)) return;
     const PlaneCells cells({&surface_}, {0, t}, SinglePoints::left_out, budget_);
     Sheet patch{false, true};
     const auto include = [&](Sheet& sheet, std::uint32_t cell) {
@@ -114,11 +114,6 @@ class Partners {
                          [&](std::uint32_t u) { return std::binary_search(pairs_.begin(), pairs_.end(), std::pair(u, t)); });
   }
 
-  static void sort_once(std::vector<std::uint32_t>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  }
-
  private:
   std::vector<std::pair<std::uint32_t, std::uint32_t>>::const_iterator from(std::uint32_t t) const {
     return std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(t, 0u));
@@ -146,7 +141,7 @@ class Hinges {
       for (const std::uint32_t half_edge : h) {
         if (sheets.include(half_edge / 3)) across.push_back(corner(half_edge, 2));
       }
-      Partners::sort_once(across);
+      sort_once(across);
       for (const std::uint32_t v : across) hinge.wings.push_back(mesh.vertices[v]);
       for (const std::uint32_t t : hinge.triangles) by_triangle_[t].push_back(static_cast<std::uint32_t>(hinges_.size()));
       hinges_.push_back(std::move(hinge));
@@ -162,7 +157,7 @@ class Hinges {
       const auto here = by_triangle_.find(t);
       if (here != by_triangle_.end()) numbers.insert(numbers.end(), here->second.begin(), here->second.end());
     }
-    Partners::sort_once(numbers);
+    sort_once(numbers);
     return numbers;
   }
 
@@ -217,7 +212,7 @@ bool alternate(const Hinge& a, const Hinge& b, Budget* budget) {
 
 bool crosses_triangle(const Hinge& hinge, const Corners& t, Budget* budget) {
   const auto side = [&](Vec3 p) { return orientation(t[0], t[1], t[2], p, budget); };
-  if (collinear(t[0], t[1], t[2], budget) || side(hinge.p) != 0 || side(hinge.q) != 0) return false;
+  if (is_collinear(t, budget) || side(hinge.p) != 0 || side(hinge.q) != 0) return false;
   bool above = false, below = false;
   for (const Vec3& w : hinge.wings) {
     above = above || side(w) > 0;
