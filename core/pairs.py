@@ -65,7 +65,7 @@ def compare_signed_distance(
 
     a, b: placed convex shapes, poses as for check_pair. length: negative for a depth. The decision
     is exact for the rounded world coordinates of vertices, centres and axes. None: one of them is a
-    cylinder, cone or ellipsoid.
+    cylinder, cone or ellipsoid, or it takes too many steps.
     """
     try:
         return native.compare_signed_distance(a, b, length, pose_a, pose_b)

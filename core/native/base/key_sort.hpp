@@ -1,4 +1,4 @@
-// Sorting by keys of few bits, without comparisons.
+// Sorting: by keys of few bits without comparisons, and of short lists.
 #pragma once
 
 #include <algorithm>
@@ -30,6 +30,13 @@ void sort_list(Item* first, Item* last) {
     for (; at > first && item < at[-1]; --at) *at = at[-1];
     *at = item;
   }
+}
+
+// Sorts, and leaves one of equal items.
+template <class Item>
+void sort_once(std::vector<Item>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 // Sorts by key; equal keys by number. Items with equal keys must have ascending numbers.

@@ -19,6 +19,10 @@ namespace satcheck {
 
 namespace {
 
+// The most expansions for polytopes, a few seconds. Regular prisms of so many sides, one in the middle of the other, take
+// more; the bounds are then close.
+constexpr int kMostExpansions = 1 << 15;
+
 // Not inlined, so that it is compiled for wide registers.
 SATCHECK_WIDE SupportPoint farthest(const MinkowskiDifference& m, Vec3 direction) { return m.support(direction); }
 
@@ -186,7 +190,7 @@ SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, d
     } else {
       result.lower = distance - m.support_error();
     }
-    if (known || !polytope.expand(w, f)) return result;
+    if (known || result.iterations >= kMostExpansions || !polytope.expand(w, f)) return result;
   }
 }
 

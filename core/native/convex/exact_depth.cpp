@@ -17,6 +17,9 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of looking at a facet, of comparing two of them exactly, and of making one.
+constexpr std::uint64_t kFacetWork = 4, kComparisonWork = 500, kNewFacetWork = 2000;
+
 struct Facet {
   std::uint32_t corner[3];  // counter-clockwise from outside
   DyadicVec normal;
@@ -57,12 +60,15 @@ bool is_nearer(const Facet& f, const Facet& g) {
 // The foot of the origin lies in the facet with the nearest plane. Rounded distances leave only few facets to be
 // compared exactly.
 const Facet& ExactPolytope::nearest() const {
+  spend(difference_.budget(), kFacetWork * facets_.size());
   const Facet* best = &*std::min_element(facets_.begin(), facets_.end(), [](const Facet& f, const Facet& g) {
     return f.distance < g.distance;
   });
   const double limit = best->distance + 16 * kUnitRoundoff * std::fabs(best->distance);
   for (const Facet& f : facets_) {
-    if (f.distance <= limit && is_nearer(f, *best)) best = &f;
+    if (f.distance > limit || &f == best) continue;
+    spend(difference_.budget(), kComparisonWork);
+    if (is_nearer(f, *best)) best = &f;
   }
   return *best;
 }
@@ -99,6 +105,7 @@ void ExactPolytope::start() {
 }
 
 void ExactPolytope::add(std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+  spend(difference_.budget(), kNewFacetWork);
   Facet f{{p, q, r}, cross(vertices_[q].w - vertices_[p].w, vertices_[r].w - vertices_[p].w), {}, {}, {}, {}, 0};
   f.height = dot(f.normal, vertices_[p].w);
   f.normal_squared = dot(f.normal, f.normal);
@@ -121,6 +128,7 @@ int ExactPolytope::side(const ExactSupport& w, const Facet& f) const {
 }
 
 void ExactPolytope::expand(const ExactSupport& w) {
+  spend(difference_.budget(), kFacetWork * facets_.size());
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::erase_if(facets_, [&](const Facet& f) {
     if (side(w, f) < 0) return false;
@@ -192,9 +200,14 @@ int compare_depth(const ExactDifference& difference, const Dyadic& length) {
 std::optional<int> compare_signed_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                                            double length) {
   if (MinkowskiDifference(a, pose_a, b, pose_b).curved) return std::nullopt;
-  const ExactDifference difference(world_points(a, pose_a), world_points(b, pose_b));
+  Budget budget = Budget::that_stops(kMostExactWork);
+  const ExactDifference difference(world_points(a, pose_a), world_points(b, pose_b), &budget);
   const Dyadic of_cores = Dyadic(length) + Dyadic(a.margin) + Dyadic(b.margin);
-  return of_cores.sign() > 0 ? compare_distance(difference, of_cores) : -compare_depth(difference, -of_cores);
+  try {
+    return of_cores.sign() > 0 ? compare_distance(difference, of_cores) : -compare_depth(difference, -of_cores);
+  } catch (const BudgetSpent&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace satcheck

@@ -9,6 +9,10 @@
 
 namespace satcheck {
 
+// The most steps that exact arithmetic may take for a pair, about half a second. Regular prisms of thousands of sides,
+// one in the middle of the other, have as many nearest faces, and would take minutes.
+inline constexpr std::uint64_t kMostExactWork = 500'000'000;
+
 // A and B must have a common interior.
 ExactFigure exact_depth(const ExactDifference& difference);
 
@@ -17,7 +21,7 @@ ExactFigure exact_depth(const ExactDifference& difference);
 int compare_depth(const ExactDifference& difference, const Dyadic& length);
 
 // Sign of (signed distance - length); a gap is > 0, a penetration < 0. The answer holds for the rounded world
-// coordinates of vertices, centres and axes. Empty for other curved shapes.
+// coordinates of vertices, centres and axes. Empty for other curved shapes, and if it takes too many steps.
 std::optional<int> compare_signed_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                                            double length);
 

@@ -14,6 +14,9 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of a vertex in a search for the farthest one, and of one that is compared exactly.
+constexpr std::uint64_t kVertexWork = 3, kHeightWork = 150;
+
 Dyadic magnitude(const Dyadic& value) { return value.sign() < 0 ? -value : value; }
 
 // The point (sum of weight[i] carrier[i]) / sum, the weights positive.
@@ -82,7 +85,8 @@ Vec3 rounded_unit(const DyadicVec& v) {
   return share * (1 / norm(share));
 }
 
-ExactDifference::ExactDifference(std::vector<Vec3> a, std::vector<Vec3> b) : a_(std::move(a)), b_(std::move(b)) {
+ExactDifference::ExactDifference(std::vector<Vec3> a, std::vector<Vec3> b, Budget* budget)
+    : a_(std::move(a)), b_(std::move(b)), budget_(budget) {
   const Aabb box_a = bounds_of(a_), box_b = bounds_of(b_);
   scale_ = std::fmax(max_abs(box_a.max - box_b.min), max_abs(box_a.min - box_b.max));
 }
@@ -96,7 +100,8 @@ ExactSupport ExactDifference::support(const DyadicVec& direction) const {
   return at(farthest(a_, direction, unit), farthest(b_, -direction, -unit));
 }
 
-std::uint32_t ExactDifference::farthest(const std::vector<Vec3>& points, const DyadicVec& direction, Vec3 unit) {
+std::uint32_t ExactDifference::farthest(const std::vector<Vec3>& points, const DyadicVec& direction, Vec3 unit) const {
+  spend(budget_, kVertexWork * points.size());
   const Vec3 origin = points.front();
   double highest = -INFINITY, extent = 0;
   std::vector<double> height(points.size());
@@ -114,6 +119,7 @@ std::uint32_t ExactDifference::farthest(const std::vector<Vec3>& points, const D
   Dyadic best_height;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (height[i] < highest - slack) continue;
+    spend(budget_, kHeightWork);
     const Dyadic exact = dot(direction, DyadicVec(points[i]));
     if (has_best && (exact - best_height).sign() <= 0) continue;
     best = i;

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/budget.hpp"
 #include "exact/dyadic.hpp"
 
 namespace satcheck {
@@ -23,8 +24,8 @@ struct ExactSupport {
 
 class ExactDifference {
  public:
-  // World vertices.
-  ExactDifference(std::vector<Vec3> a, std::vector<Vec3> b);
+  // World vertices. budget: pays for all that is asked of the difference.
+  ExactDifference(std::vector<Vec3> a, std::vector<Vec3> b, Budget* budget = nullptr);
 
   ExactSupport at(std::uint32_t a, std::uint32_t b) const;
   // The vertex farthest along an exact direction, which is not 0.
@@ -34,11 +35,13 @@ class ExactDifference {
   const std::vector<Vec3>& vertices_b() const { return b_; }
   // Bounds every coordinate of A - B.
   double scale() const { return scale_; }
+  Budget* budget() const { return budget_; }
 
  private:
-  static std::uint32_t farthest(const std::vector<Vec3>& points, const DyadicVec& direction, Vec3 unit);
+  std::uint32_t farthest(const std::vector<Vec3>& points, const DyadicVec& direction, Vec3 unit) const;
 
   std::vector<Vec3> a_, b_;
+  Budget* budget_;
   double scale_ = 0;
 };
 

@@ -189,8 +189,6 @@ Outcome outcome_of(int sign_of_depth) {
   return sign_of_depth < 0 ? Outcome::separated : sign_of_depth > 0 ? Outcome::penetrating : Outcome::touching;
 }
 
-ExactDifference difference_of(const WorldHull& a, const WorldHull& b) { return {a.vertices(), b.vertices()}; }
-
 // Computes the figure without float64 errors. The outcome is known and not touching.
 void measure_exactly(const ExactDifference& difference, PairResult& result) {
   const bool apart = result.outcome == Outcome::separated;
@@ -211,38 +209,43 @@ std::optional<Outcome> outcome_in_place(const Shape& a, const Pose& pose_a, cons
   return outcome_by_face(WorldHull(a, pose_a), WorldHull(b, pose_b), axis);
 }
 
+// Fits the figures of float64 to an outcome that is exact.
+void follow_outcome(PairResult& result) {
+  const bool apart = result.outcome == Outcome::separated, overlap = result.outcome == Outcome::penetrating;
+  if (!overlap) result.lower = std::fmax(result.lower, 0.0);
+  if (!apart) result.upper = std::fmin(result.upper, 0.0);
+  // If float64 had the wrong sign, the proven bound on the right side becomes the figure.
+  if (apart && !(result.distance > 0)) result.distance = result.upper;
+  if (overlap && !(result.distance < 0)) result.distance = result.lower;
+  if (!apart && !overlap) result.distance = 0;
+}
+
 // Decides exactly what float64 left open about two polytopes: the sign, or a figure with wide bounds. Most pairs in
 // doubt are flush neighbours, so the faces along `axis` (from A to B, in the frame of A) come first.
 void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt, Vec3 axis,
-                    PairResult& result) {
+                    Budget& budget, PairResult& result) {
   const WorldHull hull_a(a, pose_a), hull_b(b, pose_b);
+  const auto difference = [&] { return ExactDifference(hull_a.vertices(), hull_b.vertices(), &budget); };
   if (in_doubt) {
     const std::optional<Outcome> by_face = outcome_by_face(hull_a, hull_b, pose_a.rotation * axis);
-    result.outcome = by_face ? *by_face : outcome_of(compare_depth(difference_of(hull_a, hull_b), Dyadic()));
+    result.outcome = by_face ? *by_face : outcome_of(compare_depth(difference(), Dyadic()));
     result.method = Method::exact;
-    result.reason = Reason::none;
   }
   if (!result.has_distance) return;
   if (result.outcome == Outcome::touching) {
     result.distance = result.lower = result.upper = 0;
   } else {
-    measure_exactly(difference_of(hull_a, hull_b), result);
+    follow_outcome(result);
+    measure_exactly(difference(), result);
   }
 }
 
-// The same for cores of vertices with a margin: the bounds follow the sign.
-void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, PairResult& result) {
-  const int side = compare_distance({world_points(a, pose_a), world_points(b, pose_b)}, Dyadic(a.margin) + Dyadic(b.margin));
-  result.outcome = outcome_of(-side);
+// The same for cores of vertices with a margin.
+void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Budget& budget, PairResult& result) {
+  const ExactDifference difference(world_points(a, pose_a), world_points(b, pose_b), &budget);
+  result.outcome = outcome_of(-compare_distance(difference, Dyadic(a.margin) + Dyadic(b.margin)));
   result.method = Method::exact;
-  result.reason = Reason::none;
-  if (!result.has_distance) return;
-  if (side >= 0) result.lower = std::fmax(result.lower, 0.0);
-  if (side <= 0) result.upper = std::fmin(result.upper, 0.0);
-  // If float64 had the wrong sign, the proven bound on the right side becomes the figure.
-  if (side > 0 && !(result.distance > 0)) result.distance = result.upper;
-  if (side < 0 && !(result.distance < 0)) result.distance = result.lower;
-  if (side == 0) result.distance = 0;
+  if (result.has_distance) follow_outcome(result);
 }
 
 // A separating axis does not give the distance: GJK measures it. Most boxes whose distance is needed are apart, and GJK
@@ -320,10 +323,15 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
-  if (polytopes) {
-    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, result);
-  } else if (in_doubt && !m.curved) {
-    settle_grown(a, pose_a, b, pose_b, result);
+  Budget budget = Budget::that_stops(kMostExactWork);
+  try {
+    if (polytopes) {
+      if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, budget, result);
+    } else if (in_doubt && !m.curved) {
+      settle_grown(a, pose_a, b, pose_b, budget, result);
+    }
+  } catch (const BudgetSpent&) {  // the bounds of float64 stand
+    if (in_doubt && result.method != Method::exact) result.outcome = Outcome::undecided;
   }
   if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
   return result;

@@ -28,8 +28,8 @@ constexpr double kNear = 2;
 // A body with its closed surface.
 class Body {
  public:
-  explicit Body(const Surface& surface)
-      : surface_(surface), closing_(surface.solid ? nullptr : closing_of(surface, OpenParts::filled)) {}
+  Body(const Surface& surface, Budget& budget)
+      : surface_(surface), closing_(surface.solid ? nullptr : closing_of(surface, OpenParts::filled, &budget)) {}
 
   const Surface& closed() const { return closing_ ? *closing_->surface : surface_; }
   const Surface& walled() const { return closing_ ? *walled_surface(surface_, OpenParts::filled) : surface_; }
@@ -55,7 +55,7 @@ class Proof {
 
   // Two metrics for each body give several sets. Takes the one in which t is deepest.
   void by_regions(const Surface& moved, const MeshRelation& relation, Overlaps overlaps) {
-    const Body a(a_), b(b_), moved_a(moved);
+    const Body a(a_, budget_), b(b_, budget_), moved_a(moved, budget_);
     const Surface &closed_a = moved_a.closed(), &closed_b = b.closed();
     // Near a crossing that is only a last digit deep, no common point may be found, although the bodies overlap
     // elsewhere.
@@ -80,7 +80,7 @@ class Proof {
     const std::vector<Vec3> triangle(c.begin(), c.end());
     const Vec3 middle = (c[0] + c[1] + c[2]) * (1.0 / 3);
     const Vec3 seed = is_of_a ? middle + t_ : middle - t_;
-    const Body other(is_of_a ? b_ : a_);
+    const Body other(is_of_a ? b_ : a_, budget_);
     if (!other.is_certain_at(seed, budget_)) return;
     for (const InnerRegion& region : regions(other.walled(), seed)) {
       is_of_a ? keep_deepest(triangle, region.vertices) : keep_deepest(region.vertices, triangle);

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "base/lanes.hpp"
 #include "exact/dyadic.hpp"
@@ -362,6 +363,33 @@ double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triang
   double rounded = 0;
   for (const double part : exact) rounded += part;
   return rounded / 6;
+}
+
+std::vector<std::vector<std::size_t>> groups_around(Vec3 p, Vec3 q, const std::vector<Vec3>& points, Budget* budget) {
+  // 0: in the half-plane of the first point, 2: opposite it; 1 and 3: before and behind that.
+  const auto quarter = [&](Vec3 point) {
+    if (const int turn = orientation(p, q, points[0], point, budget)) return turn > 0 ? 1 : 3;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int side = orientation_2d(p, q, points[0], axis, budget);
+      if (side != 0) return side == orientation_2d(p, q, point, axis, budget) ? 0 : 2;
+    }
+    return 0;
+  };
+  std::vector<std::pair<int, std::size_t>> places;
+  for (std::size_t k = 0; k < points.size(); ++k) places.emplace_back(quarter(points[k]), k);
+  const auto turn = [&](const auto& from, const auto& to) {
+    return orientation(p, q, points[from.second], points[to.second], budget);
+  };
+  std::stable_sort(places.begin(), places.end(), [&](const auto& from, const auto& to) {
+    return from.first != to.first ? from.first < to.first : from.first % 2 == 1 && turn(from, to) > 0;
+  });
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const bool coincides = k > 0 && places[k - 1].first == places[k].first && turn(places[k - 1], places[k]) == 0;
+    if (!coincides) groups.emplace_back();
+    groups.back().push_back(places[k].second);
+  }
+  return groups;
 }
 
 }  // namespace satcheck

@@ -128,6 +128,10 @@ class VolumeSum {
   double total_ = 0, correction_ = 0, permanent_ = 0;
 };
 
+// The points, by number, in counter-clockwise order about the direction from p to q. Those in one half-plane that ends at
+// the line form a group. No point should be on the line.
+std::vector<std::vector<std::size_t>> groups_around(Vec3 p, Vec3 q, const std::vector<Vec3>& points, Budget* budget = nullptr);
+
 // Points in the plane of a triangle. The same functions for rounded and exact points.
 inline int orientation_2d_at(Vec3 a, Vec3 b, Vec3 p, int drop_axis, Budget* budget = nullptr) {
   return orientation_2d(a, b, p, drop_axis, budget);

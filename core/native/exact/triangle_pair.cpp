@@ -135,7 +135,7 @@ Vec3 edge_meeting_point(const Corners& a, const Corners& b) {
 }  // namespace
 
 bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t, Budget* budget) {
-  if (collinear(t[0], t[1], t[2], budget)) {
+  if (is_collinear(t, budget)) {
     const auto [low, high] = extremes(t);
     return segments_meet(p, q, low, high, budget);
   }
@@ -205,8 +205,7 @@ bool share_area(const Corners& a, const Corners& b, int drop_axis, Budget* budge
 }
 
 CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b, Budget* budget) {
-  const auto is_collinear = [&](const Corners& t) { return collinear(t[0], t[1], t[2], budget); };
-  if (is_collinear(a) || is_collinear(b) || !all_zero(sides(a, b, budget))) return CoplanarOverlap::none;
+  if (is_collinear(a, budget) || is_collinear(b, budget) || !all_zero(sides(a, b, budget))) return CoplanarOverlap::none;
   const int axis = projection_axis(rounded_normal(a[0], a[1], a[2], budget));
   if (!share_area(a, b, axis, budget)) return CoplanarOverlap::none;
   const auto turn = [&](const Corners& t) { return orientation_2d(t[0], t[1], t[2], axis, budget); };

@@ -16,6 +16,8 @@ enum class TriangleContact {
               // the other one's plane there
 };
 
+inline bool is_collinear(const Corners& t, Budget* budget = nullptr) { return collinear(t[0], t[1], t[2], budget); }
+
 // Any triangles, collinear and point-like ones included.
 TriangleContact classify(const Corners& a, const Corners& b, Budget* budget = nullptr);
 TriangleContact classify(const TrianglePlane& a, const Corners& b, Budget* budget = nullptr);

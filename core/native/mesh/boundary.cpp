@@ -111,7 +111,7 @@ namespace {
 // Measured steps for each point of a rim.
 constexpr std::uint64_t kHullWork = 100;
 
-Closing fill_holes(const Surface& open) {
+Closing fill_holes(const Surface& open, Budget* budget) {
   Closing closing;
   Mesh closed = open.mesh;
   double_triangles(closed, open.sheets);
@@ -123,7 +123,7 @@ Closing fill_holes(const Surface& open) {
     }
   }
   closing.surface = std::make_shared<const Surface>(make_surface(closed, true));
-  closing.hulls = hulls_of(open.mesh, closing.holes);
+  closing.hulls = hulls_of(open.mesh, closing.holes, budget);
   return closing;
 }
 
@@ -158,8 +158,8 @@ std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes, 
   return hulls;
 }
 
-Closing close_surface(const Surface& open, OpenParts parts) {
-  return parts == OpenParts::filled ? fill_holes(open) : double_open_parts(open.mesh);
+Closing close_surface(const Surface& open, OpenParts parts, Budget* budget) {
+  return parts == OpenParts::filled ? fill_holes(open, budget) : double_open_parts(open.mesh);
 }
 
 }  // namespace satcheck

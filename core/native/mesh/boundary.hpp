@@ -55,7 +55,7 @@ struct Closing {
   std::vector<Surface> hulls;  // closed, one for each hole: every fill of the hole lies within it
 };
 
-Closing close_surface(const Surface& open, OpenParts parts);
+Closing close_surface(const Surface& open, OpenParts parts, Budget* budget = nullptr);
 
 // The hulls of these holes of a mesh.
 std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes, Budget* budget = nullptr);

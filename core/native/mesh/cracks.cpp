@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/edge_table.hpp"
+#include "base/key_sort.hpp"
 #include "base/patches.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/bvh.hpp"
@@ -58,8 +59,7 @@ int widest_axis(const Mesh& mesh, const std::vector<std::uint32_t>& vertices) {
 std::vector<std::uint32_t> vertices_of(const std::vector<BoundaryLoop>& loops) {
   std::vector<std::uint32_t> vertices;
   for (const BoundaryLoop& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_once(vertices);
   return vertices;
 }
 

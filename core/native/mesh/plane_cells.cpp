@@ -56,7 +56,7 @@ void PlaneCells::look_at(PatchTriangle other, const Corners& member) {
     if (straddles && classify(member, c, budget_) == TriangleContact::disjoint) return;  // it may meet another member
     seen = seen_.emplace(key(other), is_flat ? Seen::coplanar : Seen::done).first;
     if (*low > 0 || *high < 0) return;
-    if (collinear(c[0], c[1], c[2], budget_)) {
+    if (is_collinear(c, budget_)) {
       seen->second = Seen::done;
     } else if (!is_flat) {
       add_trace(other.surface, c, side);

@@ -14,11 +14,6 @@
 namespace satcheck {
 namespace {
 
-bool is_collinear(const Mesh& mesh, std::uint32_t t, Budget* budget) {
-  const Corners c = corners(mesh, t);
-  return collinear(c[0], c[1], c[2], budget);
-}
-
 // The corners of t in an order that starts with those it shares with u.
 struct SharedFirst {
   Triangle corner;
@@ -95,7 +90,7 @@ bool has_irregular_partners(const Surface& surface, std::uint32_t t, Budget* bud
   const Mesh& mesh = surface.mesh;
   const MeshTriangle triangle(mesh, t, budget);
   return !visit_box(surface.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t u) {
-    return u == t || is_collinear(mesh, u, budget) || !triangle.has_more_in_common_with(u);
+    return u == t || is_collinear(corners(mesh, u), budget) || !triangle.has_more_in_common_with(u);
   }, budget);
 }
 
@@ -107,7 +102,7 @@ void visit_uniform_parts(const std::vector<const Surface*>& surfaces, const std:
   const std::vector<std::uint32_t> twins = EdgeTable(mesh.vertices.size(), mesh.triangles).twins();
   std::vector<bool> done(mesh.triangles.size(), false);
   for (std::uint32_t first = 0; first < mesh.triangles.size(); ++first) {
-    if (done[first] || !wanted(first) || is_collinear(mesh, first, budget)) continue;
+    if (done[first] || !wanted(first) || is_collinear(corners(mesh, first), budget)) continue;
     if (has_irregular_partners(surface, first, budget)) {
       const PlaneCells cells(surfaces, {0, first}, SinglePoints::left_out, budget);
       for (const PatchTriangle& member : cells.members()) {
@@ -124,7 +119,7 @@ void visit_uniform_parts(const std::vector<const Surface*>& surfaces, const std:
       queue.pop_back();
       for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
         const std::uint32_t u = twins[h] / 3;
-        if (twins[h] == EdgeTable::kNone || done[u] || !wanted(u) || is_collinear(mesh, u, budget)) continue;
+        if (twins[h] == EdgeTable::kNone || done[u] || !wanted(u) || is_collinear(corners(mesh, u), budget)) continue;
         if (has_irregular_partners(surface, u, budget)) continue;
         done[u] = true;
         queue.push_back(u);

@@ -110,10 +110,14 @@ Surface refitted_surface(const Surface& like, Mesh mesh) {
   return surface;
 }
 
-std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts) {
+std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts, Budget* budget) {
   const std::lock_guard<std::mutex> lock(open.closings->mutex);
   auto& closing = open.closings->made[static_cast<std::size_t>(parts)];
-  if (!closing) closing = std::make_shared<const Closing>(close_surface(open, parts));
+  if (closing) return closing;
+  Budget polling = Budget::that_stops(kNoEnd, [&](const SearchState& state) {
+    if (budget != nullptr) budget->tell_again(state.work);
+  });
+  closing = std::make_shared<const Closing>(close_surface(open, parts, &polling));
   return closing;
 }
 

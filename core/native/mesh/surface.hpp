@@ -52,8 +52,9 @@ struct Surface {
   std::shared_ptr<LazyOutline> outline = std::make_shared<LazyOutline>();
 };
 
-// The closing of the open surface (mesh/boundary.hpp). Made once.
-std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts);
+// The closing of the open surface (mesh/boundary.hpp). Made once. budget: of the query that asks, which is polled meanwhile
+// and pays nothing.
+std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts, Budget* budget = nullptr);
 
 // The closed surface with the hulls of its holes as additional walls. Points that these walls do not separate from a
 // point outside of all hulls are inside or outside like that point, for every fill. Made once.

@@ -20,8 +20,6 @@
 namespace satcheck {
 namespace {
 
-bool is_collinear(const Corners& c) { return collinear(c[0], c[1], c[2]); }
-
 class Boundary {
  public:
   Boundary(const Surface& surface, Budget* budget) : surface_(surface), budget_(budget) {}

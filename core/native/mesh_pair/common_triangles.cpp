@@ -44,8 +44,6 @@ std::vector<Keyed> keyed_triangles(const Mesh& mesh, const Aabb& box) {
 
 bool same_corners(const Corners& t, const Corners& u) { return std::is_permutation(t.begin(), t.end(), u.begin()); }
 
-bool is_collinear(const Corners& c, Budget* budget) { return collinear(c[0], c[1], c[2], budget); }
-
 // The edge of t that the other triangle shares, or -1.
 int shared_edge(const Corners& t, const Corners& other) {
   int apart = -1, count = 0;

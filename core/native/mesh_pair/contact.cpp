@@ -71,7 +71,7 @@ class ContactSide {
     for (const ContactTriangle& c : contacts_) {
       const Corners t = corners(side_.self.mesh, c.triangle);
       if (samples.settled()) return;
-      if (collinear(t[0], t[1], t[2]) || sampled_.contains(c.triangle)) continue;
+      if (is_collinear(t) || sampled_.contains(c.triangle)) continue;
       if (cut == Cut::self_meeting && !has_irregular_partners(side_.self, c.triangle, side_.budget)) {
         if (!sample_triangle(c, t, samples)) samples.fail();
       } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/key_sort.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh_pair/samples.hpp"
@@ -36,8 +37,7 @@ std::vector<std::array<std::uint32_t, 3>> distinct_triangles(const Mesh& mesh) {
     std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     distinct.push_back(corners);
   }
-  std::ranges::sort(distinct);
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  sort_once(distinct);
   return distinct;
 }
 

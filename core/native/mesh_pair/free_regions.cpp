@@ -58,8 +58,7 @@ bool FreeRegions::any_inside() const {
 void FreeRegions::sample_first(Samples& samples) const {
   if (!known_) samples.fail();
   for (const Region& region : regions_) {
-    const Corners c = corners(side_.self.mesh, region.triangle);
-    if (!samples.may_learn(side_, region.theirs) || collinear(c[0], c[1], c[2])) continue;
+    if (!samples.may_learn(side_, region.theirs) || is_collinear(corners(side_.self.mesh, region.triangle))) continue;
     sample_centre(region.triangle, region.theirs, samples);
   }
 }

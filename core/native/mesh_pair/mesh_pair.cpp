@@ -123,14 +123,14 @@ bool crosses_boundaries(const ClosedPair& pair, ContactPair crossing, Budget* bu
 MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
                               Budget* budget) {
   if (contacts.crossing && wanted == Wanted::overlap) return crossing_relation(a, b, *contacts.crossing);
-  const ClosedPair filled(a, b, OpenParts::filled);
+  const ClosedPair filled(a, b, OpenParts::filled, budget);
   if (contacts.crossing && crosses_boundaries(filled, *contacts.crossing, budget)) {
     return crossing_relation(a, b, *contacts.crossing);
   }
   const Holes holes = holes_between(filled, budget);
   MeshRelation result;
   if (holes.in_the_way) {
-    const ClosedPair sheets(a, b, OpenParts::sheets);
+    const ClosedPair sheets(a, b, OpenParts::sheets, budget);
     result = relation_of_points(sheets.a(), sheets.b(), wanted, budget);
     if (!overlaps(result)) result.hole = holes.in_the_way;
   } else {

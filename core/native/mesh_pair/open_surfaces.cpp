@@ -74,9 +74,9 @@ class HoledSide {
 
 }  // namespace
 
-ClosedPair::ClosedPair(const Surface& a, const Surface& b, OpenParts open) : a_(a), b_(b) {
-  if (!a.solid) of_a_ = closing_of(a, open);
-  if (!b.solid) of_b_ = closing_of(b, open);
+ClosedPair::ClosedPair(const Surface& a, const Surface& b, OpenParts open, Budget* budget) : a_(a), b_(b) {
+  if (!a.solid) of_a_ = closing_of(a, open, budget);
+  if (!b.solid) of_b_ = closing_of(b, open, budget);
 }
 
 Holes holes_between(const ClosedPair& pair, Budget* budget) {
@@ -89,7 +89,7 @@ Holes holes_between(const ClosedPair& pair, Budget* budget) {
 }
 
 std::optional<double> distance_of_holes(const Surface& a, const Surface& b, double limit, Budget* budget) {
-  const ClosedPair pair(a, b, OpenParts::filled);
+  const ClosedPair pair(a, b, OpenParts::filled, budget);
   static const std::vector<Surface> none;
   const auto& hulls_a = pair.closing_a() ? pair.closing_a()->hulls : none;
   const auto& hulls_b = pair.closing_b() ? pair.closing_b()->hulls : none;

@@ -12,7 +12,7 @@ namespace satcheck {
 // Two surfaces, both closed.
 class ClosedPair {
  public:
-  ClosedPair(const Surface& a, const Surface& b, OpenParts open);
+  ClosedPair(const Surface& a, const Surface& b, OpenParts open, Budget* budget);
 
   const Surface& a() const { return of_a_ ? *of_a_->surface : a_; }
   const Surface& b() const { return of_b_ ? *of_b_->surface : b_; }

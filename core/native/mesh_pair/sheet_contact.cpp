@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/edge_table.hpp"
+#include "base/key_sort.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/plane_cells.hpp"
@@ -60,10 +61,9 @@ class Sheets {
   };
 
   void look_at(std::uint32_t t) {
-    const Corners c = corners(surface_.mesh, t);
     known_[t] = {};
     // A triangle that meets no other has material on one side.
-    if (collinear(c[0], c[1], c[2], budget_) || !has_irregular_partners(surface_, t, budget_)) return;
+    if (is_collinear(corners(surface_.mesh, t), budget_) || !has_irregular_partners(surface_, t, budget_)) return;
     const PlaneCells cells({&surface_}, {0, t}, SinglePoints::left_out, budget_);
     Sheet patch{false, true};
     const auto include = [&](Sheet& sheet, std::uint32_t cell) {
@@ -114,11 +114,6 @@ class Partners {
                          [&](std::uint32_t u) { return std::binary_search(pairs_.begin(), pairs_.end(), std::pair(u, t)); });
   }
 
-  static void sort_once(std::vector<std::uint32_t>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  }
-
  private:
   std::vector<std::pair<std::uint32_t, std::uint32_t>>::const_iterator from(std::uint32_t t) const {
     return std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(t, 0u));
@@ -146,7 +141,7 @@ class Hinges {
       for (const std::uint32_t half_edge : h) {
         if (sheets.include(half_edge / 3)) across.push_back(corner(half_edge, 2));
       }
-      Partners::sort_once(across);
+      sort_once(across);
       for (const std::uint32_t v : across) hinge.wings.push_back(mesh.vertices[v]);
       for (const std::uint32_t t : hinge.triangles) by_triangle_[t].push_back(static_cast<std::uint32_t>(hinges_.size()));
       hinges_.push_back(std::move(hinge));
@@ -162,7 +157,7 @@ class Hinges {
       const auto here = by_triangle_.find(t);
       if (here != by_triangle_.end()) numbers.insert(numbers.end(), here->second.begin(), here->second.end());
     }
-    Partners::sort_once(numbers);
+    sort_once(numbers);
     return numbers;
   }
 
@@ -196,44 +191,19 @@ bool share_length(const Hinge& a, const Hinge& b, Budget* budget) {
   return low(a) < high(b) && low(b) < high(a);
 }
 
-bool same_half_plane(Vec3 p, Vec3 q, Vec3 u, Vec3 v, Budget* budget) {
-  if (orientation(p, q, u, v, budget) != 0) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int side = orientation_2d(p, q, u, axis, budget);
-    if (side != 0) return side == orientation_2d(p, q, v, axis, budget);
-  }
-  return true;
-}
-
 // Whether two wings of A and two of B alternate. Wings in one half-plane count once, and not if both have one there.
 bool alternate(const Hinge& a, const Hinge& b, Budget* budget) {
-  const Vec3 p = a.p, q = a.q;
-  struct Wing {
-    Vec3 at;
-    bool of_a;
-  };
-  std::vector<Wing> wings;
+  std::vector<Vec3> wings;  // of A first
+  std::size_t of_a = 0;
   for (const Hinge* hinge : {&a, &b}) {
-    for (const Vec3& at : hinge->wings) {
-      if (!collinear(p, q, at, budget)) wings.push_back({at, hinge == &a});
-    }
+    std::copy_if(hinge->wings.begin(), hinge->wings.end(), std::back_inserter(wings),
+                 [&](Vec3 wing) { return !collinear(a.p, a.q, wing, budget); });
+    if (hinge == &a) of_a = wings.size();
   }
-  if (wings.empty()) return false;
-  const Vec3 first = wings[0].at;
-  const auto quarter = [&](Vec3 at) {
-    const int turn = orientation(p, q, first, at, budget);
-    return turn == 0 ? (same_half_plane(p, q, first, at, budget) ? 0 : 2) : turn > 0 ? 1 : 3;
-  };
-  std::stable_sort(wings.begin(), wings.end(), [&](const Wing& u, const Wing& v) {
-    const int quarter_u = quarter(u.at), quarter_v = quarter(v.at);
-    return quarter_u != quarter_v ? quarter_u < quarter_v : orientation(p, q, u.at, v.at, budget) > 0;
-  });
-  std::vector<bool> around;  // whose wing it is
-  for (std::size_t i = 0; i < wings.size();) {
-    bool any[2] = {};
-    const std::size_t start = i;
-    for (; i < wings.size() && same_half_plane(p, q, wings[start].at, wings[i].at, budget); ++i) any[wings[i].of_a ? 0 : 1] = true;
-    if (any[0] != any[1]) around.push_back(any[0]);
+  std::vector<bool> around;  // whether a half-plane has wings of A
+  for (const auto& group : groups_around(a.p, a.q, wings, budget)) {
+    const auto [first, last] = std::minmax_element(group.begin(), group.end());
+    if ((*first < of_a) == (*last < of_a)) around.push_back(*first < of_a);
   }
   int changes = 0;
   for (std::size_t i = 0; i < around.size(); ++i) changes += around[i] != around[(i + 1) % around.size()] ? 1 : 0;
@@ -242,7 +212,7 @@ bool alternate(const Hinge& a, const Hinge& b, Budget* budget) {
 
 bool crosses_triangle(const Hinge& hinge, const Corners& t, Budget* budget) {
   const auto side = [&](Vec3 p) { return orientation(t[0], t[1], t[2], p, budget); };
-  if (collinear(t[0], t[1], t[2], budget) || side(hinge.p) != 0 || side(hinge.q) != 0) return false;
+  if (is_collinear(t, budget) || side(hinge.p) != 0 || side(hinge.q) != 0) return false;
   bool above = false, below = false;
   for (const Vec3& w : hinge.wings) {
     above = above || side(w) > 0;

@@ -14,6 +14,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/key_sort.hpp"
 #include "base/patches.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/chains.hpp"
@@ -210,8 +211,7 @@ class Assembly {
 
   void make_curves() {
     for (NodePair& s : segments_) s = undirected(s);
-    std::sort(segments_.begin(), segments_.end());
-    segments_.erase(std::unique(segments_.begin(), segments_.end()), segments_.end());
+    sort_once(segments_);
     std::erase_if(segments_, [&](const NodePair& s) {
       return std::binary_search(border_.begin(), border_.end(), s);
     });

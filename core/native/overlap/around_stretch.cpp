@@ -31,42 +31,18 @@ class Turn {
  private:
   // The order about the edge of a mesh. Each half-plane is represented by a corner of its triangle.
   std::optional<Groups> order_about(Vec3 from, Vec3 to) const {
-    struct Place {
-      int quarter;
-      Vec3 corner;
-      HalfPlane half_plane;
-    };
-    std::vector<Place> places;
+    std::vector<Vec3> places;
     for (const HalfPlane& h : half_planes_) {
       const auto corner = corner_in(h, from, to);
       if (!corner) return std::nullopt;
-      const Vec3 first = places.empty() ? *corner : places[0].corner;
-      places.push_back({quarter(from, to, first, *corner), *corner, h});
+      places.push_back(*corner);
     }
-    std::stable_sort(places.begin(), places.end(), [&](const Place& p, const Place& q) {
-      if (p.quarter != q.quarter) return p.quarter < q.quarter;
-      return p.quarter % 2 == 1 && orientation(from, to, p.corner, q.corner) > 0;
-    });
     Groups groups;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const auto coincides_with = [&](const Place& p) {
-        return p.quarter == places[k].quarter && orientation(from, to, p.corner, places[k].corner) == 0;
-      };
-      if (k == 0 || !coincides_with(places[k - 1])) groups.emplace_back();
-      groups.back().push_back(places[k].half_plane);
+    for (const auto& group : groups_around(from, to, places)) {
+      groups.emplace_back();
+      for (const std::size_t k : group) groups.back().push_back(half_planes_[k]);
     }
     return groups;
-  }
-
-  // 0: in the half-plane of `first`, 2: opposite it; 1 and 3: before and behind that.
-  static int quarter(Vec3 from, Vec3 to, Vec3 first, Vec3 corner) {
-    const int turn = orientation(from, to, first, corner);
-    if (turn != 0) return turn > 0 ? 1 : 3;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int side = orientation_2d(from, to, first, axis);
-      if (side != 0) return side == orientation_2d(from, to, corner, axis) ? 0 : 2;
-    }
-    return 0;
   }
 
   // A corner of the triangle that lies in the open half-plane.

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/key_sort.hpp"
 #include "base/rounding.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh/slivers.hpp"
@@ -150,8 +151,7 @@ class Overlap {
       return numbers.emplace(node, static_cast<std::uint32_t>(numbers.size())).first->second;
     };
     for (auto& [low, high] : pairs) low = number(low), high = number(high);
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    sort_once(pairs);
     return join_chains(pairs, numbers.size()).size();
   }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/edge_table.hpp"
+#include "base/key_sort.hpp"
 #include "mesh_pair/traversal.hpp"
 
 namespace satcheck {
@@ -11,12 +12,6 @@ namespace {
 
 // Measured steps of two triangles that meet, and of a half-plane at a stretch.
 constexpr std::uint64_t kMeetingWork = 4000, kHalfPlaneWork = 500;
-
-template <class T>
-void sort_and_drop_copies(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 LazyPoint lazy(const ExactPoint& p) {
   return {p.rounded, p.error, [&p] { return p; }};
@@ -98,7 +93,7 @@ void SpaceCells::meet(std::size_t max_pairs) {
     }
     cut_[0][pair.a] = cut_[1][pair.b] = 0;
   }
-  for (auto& segments : segments_) sort_and_drop_copies(segments);
+  for (auto& segments : segments_) sort_once(segments);
 }
 
 // The faces of all triangles of one mesh.
@@ -116,7 +111,7 @@ void SpaceCells::cut(int mesh) {
 // The number of its faces.
 std::uint32_t SpaceCells::cut_triangle(int mesh, std::uint32_t triangle) {
   const Corners c = corners(surface(mesh).mesh, triangle);
-  complete_ = complete_ && !collinear(c[0], c[1], c[2]);
+  complete_ = complete_ && !is_collinear(c);
   if (!complete_) return 0;
   cut_[mesh][triangle] = static_cast<std::uint32_t>(cuts_.size());
   const TriangleFaces& faces = cuts_.emplace_back(nodes_, mesh, surface(mesh).mesh.triangles[triangle], c,
@@ -199,8 +194,7 @@ void SpaceCells::unite_shared(const std::vector<HalfPlane>& half_planes) {
 }
 
 bool SpaceCells::bounds_nothing(const CellFace& face) const {
-  const Corners c = corners(surface(face.mesh).mesh, face.triangle);
-  return collinear(c[0], c[1], c[2]);
+  return is_collinear(corners(surface(face.mesh).mesh, face.triangle));
 }
 
 ExactPoint SpaceCells::sample(std::uint32_t face) const {

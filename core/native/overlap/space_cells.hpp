@@ -81,7 +81,6 @@ class SpaceCells {
   std::uint32_t shell(std::uint32_t side) { return shells_.find(side); }
   // Whether a triangle meets the other surface.
   bool in_contact(int mesh, std::uint32_t triangle) const { return cut_[mesh][triangle] != kNotCut; }
-  bool any_contact() const { return !cuts_.empty(); }
   bool bounds_nothing(const CellFace& face) const;
 
   // A point inside the face; and the face of a triangle that contains a point.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/key_sort.hpp"
 #include "base/rounding.hpp"
 #include "exact/triangle_distance.hpp"
 
@@ -96,8 +97,7 @@ PatchList TwoBodies::patches_at(int body, const Aabb& box, Budget& budget, std::
     if (i != kNoPatch) list.push_back(i);
     return list.size() < most;
   }, &budget);
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  sort_once(list);
   return list;
 }
 

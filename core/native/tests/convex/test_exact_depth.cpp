@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "convex/exact_depth.hpp"
+#include "convex/narrow_phase.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"
 
@@ -89,9 +90,38 @@ void test_random_hulls_in_any_order() {
   }
 }
 
+// A prism of 6,000 sides on a circle.
+Points prism_of_many_sides(double size) {
+  Points points;
+  for (int m = 1; m <= 1500; ++m) {
+    const double t = m / 1500.0, x = (1 - t * t) / (1 + t * t), y = 2 * t / (1 + t * t);
+    for (const double z : {-1.0, 1.0}) {
+      points.insert(points.end(), {{size * x, size * y, z}, {-size * x, size * y, z}, {size * x, -size * y, z}, {-size * x, -size * y, z}});
+    }
+  }
+  return points;
+}
+
+// As many facets as sides are almost nearest. All ways out of the round walls are about 1.5 long, through the ends 2.
+void test_ends_with_its_steps() {
+  const Points outer = prism_of_many_sides(1), inner = prism_of_many_sides(0.5);
+  Budget budget = Budget::that_stops(1'000'000);
+  bool stopped = false;
+  try {
+    exact_depth(ExactDifference(outer, inner, &budget));
+  } catch (const BudgetSpent&) {
+    stopped = true;
+  }
+  CHECK(stopped);
+  const PairResult bounded = check_pair(make_hull(outer), {}, make_hull(inner), {}, Query::depth);
+  CHECK(bounded.outcome == Outcome::penetrating);
+  CHECK(-1.5 <= bounded.lower + 1e-12 && bounded.lower <= bounded.upper && bounded.upper <= -1.499);
+}
+
 }  // namespace
 
 UNIT(exact_depth) {
+  test_ends_with_its_steps();
   test_closed_forms();
   test_what_float64_cannot_see();
   test_flats_that_nearly_coincide();
