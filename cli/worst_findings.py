@@ -16,7 +16,7 @@ from satcheck.audit.batch.stored import Stored
 from satcheck.audit.words import rank
 from satcheck.cli.formats.assets import worst_of
 from satcheck.cli.output import cannot_write, harmless, talk, write_file
-from satcheck.cli.progress import Bar
+from satcheck.cli.progress import counting
 from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset
@@ -75,14 +75,11 @@ def with_pictures(worst: Sequence[Worst], drawing: Drawing) -> Iterator[Illustra
     now, folder = lru_cache(_DIGESTS)(digest), drawing.folder
     if folder is not None:
         _make(folder)
-    with Bar("pictures", "drawing") as bar:
-        for number, each in enumerate(worst, 1):
-            picture = drawing.undrawn or _picture(each, drawing, now)
-            if folder is not None:
-                _write(folder / file_name(number, each), each, picture)
-            yield Illustrated(each.stored.asset, each.finding, picture)
-            if bar is not None:
-                bar(number, len(worst))
+    for number, each in enumerate(counting(worst, "pictures", "drawing"), 1):
+        picture = drawing.undrawn or _picture(each, drawing, now)
+        if folder is not None:
+            _write(folder / file_name(number, each), each, picture)
+        yield Illustrated(each.stored.asset, each.finding, picture)
 
 
 def _make(folder: Path) -> None:
