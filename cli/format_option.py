@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import click
 from click.core import ParameterSource
@@ -27,7 +27,7 @@ from satcheck.report.json import document as json_document
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class Target(Struct, frozen=True):
+class Target(NamedTuple):
     """A document to write. output: its file; None: standard output."""
 
     form: str

@@ -242,10 +242,9 @@ def command(
         for advice in about_assets(inputs.paths, scene):
             talk(str(advice))
     scene, poses = _placed(scene, inputs)
-    settings = {**options, **inputs.limits}
     result: Report | SamplesReport
     if poses is None:
-        asked = settings_of(settings, scene)
+        asked = settings_of(options, scene)
         result = _check(scene, asked if known is None else measuring(asked))
         if baseline is not None and known is not None:
             names = names_in_baseline(inputs.paths, baseline)
@@ -254,7 +253,7 @@ def command(
             result = with_stated_places(result, scene)
     else:
         refuse_of_poses(to.forms, explain=explain, baseline=baseline, **options)
-        result = _check_poses(scene, poses, settings_of(settings, scene), inputs.random_seed)
+        result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
     if config is not None:
         result = replace(result, config=config)
     deliver(document, result, scene, to)

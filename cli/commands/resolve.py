@@ -17,7 +17,7 @@ from satcheck.cli.format_option import deliver, form_option, plain_call, product
 from satcheck.cli.formats.resolution import render
 from satcheck.cli.inputs import Inputs, load
 from satcheck.cli.option import in_units_of, length, settings_of
-from satcheck.cli.output import issue_line, talk, write_file
+from satcheck.cli.output import talk, tell_issues, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
 from satcheck.core.conventions import Vector
@@ -85,10 +85,9 @@ def command(
     if scene_out is not None:
         _refuse_output(inputs, scene_out)
     scene = load(inputs)
-    if inputs.has_poses:
-        scene = posed_once(scene, inputs, "resolve takes one pose, which places the links")
+    scene = posed_once(scene, inputs, "resolve takes one pose, which places the links")
     stray = scene_out and _stray(scene_out, scene, allow_outside=inputs.allow_outside)
-    settings = settings_of({**options, **inputs.limits}, scene)
+    settings = settings_of(options, scene)
     farthest = None
     if max_motion is not None:
         farthest = in_units_of(max_motion, scene.units, "--max-motion")
@@ -160,7 +159,5 @@ def _written(
         path.unlink(missing_ok=True)
         raise
     report = check(moved, settings)
-    for issue in report.issues:
-        if issue.severity == "error":
-            talk(f"satcheck: {issue_line(issue)}")
+    tell_issues(issue for issue in report.issues if issue.severity == "error")
     return report

@@ -26,7 +26,7 @@ from satcheck.cli.formats.registry import Format
 from satcheck.cli.formats.suggest import remark, rules_of, srdf, toml
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.option import settings_of
-from satcheck.cli.output import Document, issue_line, talk
+from satcheck.cli.output import Document, talk, tell_issues
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
 from satcheck.cli.slips import call_of
@@ -99,15 +99,13 @@ def command(
             raise click.UsageError("SRDF is about one robot: give one URDF")
         robot = scene.robots[0].robot.name if scene.robots else ""
         told = {issue.code for issue in scene.issues}
-        result = _of_scene(scene, inputs, settings_of({**options, **inputs.limits}, scene))
+        result = _of_scene(scene, inputs, settings_of(options, scene))
     pairs = [pair for pair in result.report.suggestions if never or pair.why != "never"]
     if form == "srdf":
         pairs = [pair for pair in pairs if pair.why != "contact"]
     document.deliver(lambda _: _text(form, result, pairs, robot), output, utf8=True)
     errors = [issue for issue in result.issues if issue.severity == "error"]
-    for issue in errors:
-        if issue.code not in told:
-            talk(f"satcheck: {issue_line(issue)}")
+    tell_issues(issue for issue in errors if issue.code not in told)
     talk(remark(result, pairs, never=never))
     if form == "toml" and pairs and output is not None:
         name = "batch" if of_folders else DEFAULT_COMMAND

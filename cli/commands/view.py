@@ -24,7 +24,7 @@ from satcheck.cli.format_option import Target, format_option, targets_of
 from satcheck.cli.formats.assets import asset_rank, overview
 from satcheck.cli.formats.registry import ALL, Format, kind_of
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.output import Document, issue_line, talk, write_file
+from satcheck.cli.output import Document, talk, tell_issues, write_file
 from satcheck.cli.rendering import (
     Delivery,
     files_line,
@@ -168,8 +168,7 @@ class _View(NamedTuple):
         if alone or is_page:
             code = self._replace(to=replace(self.to, targets=tuple(alone)))._worst(stored)
         if is_page or not others:
-            for issue in issues:
-                talk(f"satcheck: {issue_line(issue)}")
+            tell_issues(issues)
             of_issues = exit_codes.for_counts(Counter([least_of(issues)]))
             return min(filter(None, (code, of_issues)), default=exit_codes.CLEAN)
         to = replace(self.to, targets=others)
@@ -206,10 +205,9 @@ class _View(NamedTuple):
         if pictures or not self.to.targets:
             root, allow_outside = self.drawing.root, self.drawing.allow_outside
             scene, issues = stated_scene(stated, root, allow_outside=allow_outside)
-        for issue in issues:
-            talk(f"satcheck: {issue_line(issue)}")
+        tell_issues(issues)
         stated = replace(stated, issues=(*issues, *stated.issues))
-        for form, output in ((target.form, target.output) for target in self.to.targets):
+        for form, output in self.to.targets:
             text = partial(rendered, stated, scene, form, self.to)
             self.document.deliver(text, output, utf8=form != "table")
         if not self.to.targets:
