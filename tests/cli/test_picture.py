@@ -198,7 +198,7 @@ def test_figures_of_a_finding_are_in_the_frame_of_the_page() -> None:
         np.array(finding.components.items[0].bounds[0]) - middle
     )
     low, high = np.array(shown["box"])
-    points = sums(data["points"], "<u2").reshape(3, -1).T / STEPS * (high - low) + low
+    points = sums(shown["points"], "<u2").reshape(3, -1).T / STEPS * (high - low) + low
     (curve,) = finding.contacts.curves
     off = (high - low).max() / STEPS
     assert points[: len(curve.points)] == pytest.approx(np.array(curve.points) - middle, abs=off)

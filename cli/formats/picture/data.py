@@ -25,7 +25,7 @@ from satcheck.scene.statics import up_axes
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     import numpy.typing as npt
 
@@ -62,22 +62,17 @@ def picture_data(
     simpler = f"Simplified: {others} without findings, to {drawn.simplified}"
     up = up_of(scene)
     shows = Shows(report, scene, moments, up)
-    lines: list[list[Floats]] = []
     shown = []
     for rank, finding in enumerate(findings):
         stated = _stated(finding, report, drawn.middle)
         if {finding.a, finding.b} <= numbers.keys():
             seen = shows.of(finding, closely=rank < CLOSELY)
-            rims = seen.marks.rim.lines if seen.marks.rim else []
-            lines.append([*seen.marks.lines, *rims])
             stated |= _drawn(seen, numbers, drawn.middle)
             if moments.note:  # several poses
                 stated["measured"] += f", {moments.names[seen.moment]}" if moments.names else ""
         else:
-            rims = []
-            lines.append([])
             stated |= {"a": numbers.get(finding.a), "b": numbers.get(finding.b)}
-        shown.append(stated | _lines(lines[-1], len(rims), drawn.middle))
+        shown.append(stated)
     return {
         "title": headline(report, moments),
         "summary": report.message if moments.note else summary_line(report),
@@ -88,7 +83,6 @@ def picture_data(
         "simplified": simpler if drawn.simplified else "",
         "findings": shown,
         "unlisted": len(every) - len(findings),
-        "points": _packed_points(lines),
         "states": {
             numbers[id_]: state for id_, state in states_of(report).items() if id_ in numbers
         },
@@ -156,32 +150,6 @@ def _counted(issues: Sequence[Issue]) -> str:
     )
 
 
-def _points(lines: Sequence[Floats]) -> Floats:
-    return np.concatenate([np.empty((0, 3)), *lines])
-
-
-def _packed_points(lines: Iterable[Sequence[Floats]]) -> str:
-    """Of the lines of all findings, within the box of each."""
-    points = [np.empty((0, 3)), *map(_points, lines)]
-    boxes = [np.broadcast_to(_box(each), (len(each), 2, 3)) for each in points]
-    return packed_points(np.concatenate(points), np.concatenate(boxes))
-
-
-def _box(points: Floats) -> Floats:
-    """(2, 3): least and greatest corner."""
-    return np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
-
-
-def _lines(lines: Sequence[Floats], rims: int, middle: Floats) -> dict[str, Any]:
-    """lines: how many of `points` each has, which stand in the order of the findings. rims: how
-    many of the lines, the last ones, are those of a hole. box: of all these points."""
-    return {
-        "lines": [*map(len, lines)],
-        "rims": rims,
-        "box": [_relative(corner, middle) for corner in _box(_points(lines))],
-    }
-
-
 def _stated(finding: Finding, report: Report, middle: Floats) -> dict[str, Any]:
     """What the report says."""
     witness, ball = finding.witness, finding.ball
@@ -205,8 +173,14 @@ def _stated(finding: Finding, report: Report, middle: Floats) -> dict[str, Any]:
 
 def _drawn(shown: Shown, numbers: dict[str, int], middle: Floats) -> dict[str, Any]:
     """What the picture adds. labels: the text, where it stands, and what it is about; the name of a
-    body stands at a point in the box of its mesh, whose sides are 1."""
+    body stands at a point in the box of its mesh, whose sides are 1. points: of all lines, within
+    `box`. lines: how many points each has. rims: how many of the lines, the last ones, are those of
+    a hole."""
     finding, marks = shown.finding, shown.marks
+    rims = marks.rim.lines if marks.rim else []
+    lines = [*marks.lines, *rims]
+    points = np.concatenate([np.empty((0, 3)), *lines])
+    box = np.array([points.min(axis=0), points.max(axis=0)]) if lines else np.zeros((2, 3))
     return {
         "a": numbers[finding.a],
         "b": numbers[finding.b],
@@ -220,6 +194,10 @@ def _drawn(shown: Shown, numbers: dict[str, int], middle: Floats) -> dict[str, A
             for text, at, kind in shown.labels
         ],
         "view": _view(shown.view, middle),
+        "points": packed_points(points, box),
+        "box": [_relative(corner, middle) for corner in box],
+        "lines": [*map(len, lines)],
+        "rims": len(rims),
     }
 
 
