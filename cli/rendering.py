@@ -131,7 +131,7 @@ def _what(form: str, report: Report | SamplesReport, scene: Scene, pose: int | N
         if pose is None and (worst := worst_pose(report)):
             pose = worst.number
         return "Image of all bodies" if pose is None else f"Image of pose {pose}"
-    from satcheck.cli.formats.picture.data import drawn_finding
+    from satcheck.cli.formats.picture import drawn_finding
 
     finding = drawn_finding(report, scene)
     return f"Image of {f'{finding.a} and {finding.b}' if finding else 'all bodies'}"

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.picture.data import drawn_finding, listed, require_drawable
+from satcheck.cli.formats.picture import drawn_finding, listed, require_drawable
 from satcheck.cli.formats.picture.marks import arrow, ball_of, dot, sphere_around
 from satcheck.cli.formats.picture.moments import moments_of
 from satcheck.cli.formats.picture.shown import marks_of

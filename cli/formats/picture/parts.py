@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.picture.data import listed
+from satcheck.cli.formats.picture import listed
 from satcheck.cli.progress import counting
 from satcheck.decompose import Cache, DecompositionError, decompose, user_cache
 

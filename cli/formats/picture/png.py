@@ -16,13 +16,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from satcheck.audit.words import is_hit, short_names
+from satcheck.cli.formats.picture import drawn_finding, headline, require_drawable, up_of
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
-from satcheck.cli.formats.picture.data import (
-    drawn_finding,
-    headline,
-    require_drawable,
-    up_of,
-)
 from satcheck.cli.formats.picture.lettering import width_of, write
 from satcheck.cli.formats.picture.marks import arrow, ball_of, dot, rod, sphere_around
 from satcheck.cli.formats.picture.moments import moments_of
