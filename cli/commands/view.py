@@ -20,7 +20,7 @@ from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults, least_of
 from satcheck.audit.words import is_listed
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import Target, format_option, targets_of
+from satcheck.cli.format_option import FormatChoice, Target, format_option, targets_of
 from satcheck.cli.formats.assets import asset_rank, overview
 from satcheck.cli.formats.registry import ALL, Format, kind_of
 from satcheck.cli.inputs import Inputs, refuse_early
@@ -42,16 +42,15 @@ from satcheck.scene.words import meant
 
 # Assets that a table lists without --top, and findings with a picture.
 TOP = 100
-_FORMATS = {
-    "html": Format(
-        "html", (".html", ".htm"), about="a 3-D view, of several assets a gallery of the worst"
-    )
-}
+_PAGE = Format(
+    "html", (".html", ".htm"), about="a 3-D view, of several assets a gallery of the worst"
+)
+_FORMATS = FormatChoice(ALL, {"html": _PAGE})
 
 
 @click.command("view", cls=Command, context_settings=HELP_NAMES)
 @option.reports
-@format_option(ALL, "as the file of -o ends, otherwise a page in the browser", also=_FORMATS)
+@format_option(_FORMATS, "as the file of -o ends, otherwise a page in the browser")
 @option.outputs(
     "Write to FILE, in the format that its name ends with; - is standard output. Repeatable."
 )
@@ -123,7 +122,7 @@ def command(
     inputs = Inputs(paths=tuple(map(str, (*reports, *filter(None, [manifest])))))
     is_opened = form is None and not outputs and folder is None
     refuse_early(inputs, outputs)
-    targets = () if is_opened else targets_of(form, outputs, ALL, _FORMATS)
+    targets = () if is_opened else targets_of(form, outputs, _FORMATS)
     to = Delivery(targets, False, exit_zero, timings=True, top=top, parts=parts, pose=pose)
     view = _View(Document(), to, Drawing(root, folder, allow_outside, top or TOP))
     if any(path.suffix.lower() in ENDINGS for path in reports):
