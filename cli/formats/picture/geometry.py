@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from satcheck.cli.formats.picture.moments import boxes_of, matrix_of
 from satcheck.cli.formats.picture.packing import frame_of, packed, packed_mesh, simplified
 from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
-from satcheck.core.shapes import Box, Cone, Cylinder, Sphere
-from satcheck.scene.bodies import IDENTITY
+from satcheck.core.shapes import Box, Cone, Cylinder, Primitive, Sphere
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -31,7 +31,7 @@ Parts = Mapping[str, Sequence["Polytope"]]
 GRIDS = (128, 64, 32, 16, 8)  # cells along the longest side of a mesh
 AS_BOXES = "boxes"
 # What the page draws beside the bodies: balls, rods and arrows, and boxes instead of bodies.
-SOLIDS = {
+SOLIDS: Mapping[str, Primitive] = {
     "sphere": Sphere(1.0),
     "rod": Cylinder(1.0, 1.0),
     "cone": Cone(1.0, 1.0),
@@ -64,8 +64,7 @@ def geometry(
     mesh, with the frame of the body. parts: body -> one mesh of all, and the triangles of each.
     moved: float32, body -> at each moment what `frames` and `boxes` have of it, 18 numbers.
     """
-    boxes = np.array([body.world_mesh().bounds for body in bodies]).reshape(-1, 2, 3)
-    middle: Floats = np.zeros(3)
+    boxes, middle = boxes_of(bodies), np.zeros(3)
     if len(bodies):
         middle = (boxes[:, 0].min(axis=0) + boxes[:, 1].max(axis=0)) / 2
     meshes = _Meshes()
@@ -86,9 +85,8 @@ def geometry(
     coarser, words = meshes.coarser(others.values(), room)
     drawn |= {k: coarser[mesh] for k, mesh in others.items()}
     frames = [frame_of(drawn[k]) for k in range(len(bodies))]
-    rows = [
-        _rows(frame, body.transform, middle) for frame, body in zip(frames, bodies, strict=True)
-    ]
+    placements = map(matrix_of, bodies)
+    rows = [_rows(*each, middle) for each in zip(placements, frames, strict=True)]
     values = {
         "bodies": {
             "ids": [body.id for body in bodies],
@@ -191,14 +189,14 @@ def _moved(frame: Floats, mesh: Mesh, placed: Floats, middle: Floats) -> str:
     numbers = []
     for matrix in placed:
         world = np.asarray(mesh.vertices) @ matrix[:3, :3].T + (matrix[:3, 3] - middle)
-        rows = _rows(frame, tuple(matrix.reshape(-1).tolist()), middle)
+        rows = _rows(matrix, frame, middle)
         numbers.append([*rows, *world.min(axis=0), *world.max(axis=0)])
     return packed(np.array(numbers, dtype=np.float32))
 
 
-def _rows(frame: Floats, transform: Sequence[float] | None, middle: Floats) -> Floats:
+def _rows(placement: Floats, frame: Floats, middle: Floats) -> Floats:
     """12 numbers."""
-    matrix = np.array(transform or IDENTITY).reshape(4, 4) @ frame
+    matrix = placement @ frame
     matrix[:3, 3] -= middle
     rows: Floats = matrix[:3].reshape(-1)
     return rows

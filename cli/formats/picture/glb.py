@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from satcheck.cli.formats.picture import drawn_finding, listed, require_drawable
-from satcheck.cli.formats.picture.marks import arrow, ball_of, dot, sphere_around
-from satcheck.cli.formats.picture.moments import moments_of
+from satcheck.cli.formats.picture.marks import arrow, ball_of, dot
+from satcheck.cli.formats.picture.moments import moments_of, sphere_around
 from satcheck.cli.formats.picture.shown import marks_of
 from satcheck.cli.progress import counting
 from satcheck.core.errors import SatcheckError
