@@ -168,7 +168,7 @@ def _written(
 
 def _table(resolution: ResolutionReport, report: Report, page: Page) -> str:
     """Return the whole text, final newline included. report: of the moved scene."""
-    shown = resolution.moves
+    shown = list(resolution.moves)
     if len(shown) > ROWS:  # the longest ones, and not in the order of the scene
         shown = sorted(shown, key=lambda move: -move.length)[:ROWS]
     said = []

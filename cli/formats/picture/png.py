@@ -111,8 +111,10 @@ def render(
     shows = Shows(report, scene, moments, up)
     shown = shows.of(finding)
     bodies = shows.scene_at(shown.moment).bodies
-    aside = _beside(bodies, shown, up, room) if _is_close(bodies, shown) else None
-    if aside is not None:
+    aside = None
+    if sphere_around(bodies)[1] > _CLOSE * shown.view.radius:
+        # A picture of the pair does not tell where in the scene it is.
+        aside = _beside(bodies, shown, up, room)
         room = room[0] - aside.shape[1], room[1]
     view = view_of(shown.view, shown.pair, up, room, shown.marks.points())
     image = image_of(bodies, shown, view, room)
@@ -123,11 +125,6 @@ def render(
     said += [label.text for label in shown.labels if label.kind not in ("a", "b")]
     words = f"{severity(finding)}: {', '.join(said)}"
     return image_file(_captioned(image, [[(A, a), (B, b)], [(None, words)]], size))
-
-
-def _is_close(bodies: Sequence[Body], shown: Shown) -> bool:
-    """Return whether a picture of the pair does not tell where in the scene it is."""
-    return sphere_around(bodies)[1] > _CLOSE * shown.view.radius
 
 
 def _beside(bodies: Sequence[Body], shown: Shown, up: str, size: tuple[int, int]) -> Pixels:
