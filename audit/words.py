@@ -291,6 +291,11 @@ def is_listed(finding: Finding) -> bool:
     return finding.severity != "none" or finding.undecided is not None
 
 
+def is_wrong(finding: Finding) -> bool:
+    """Whether it fails, warns or is undecided."""
+    return severity(finding) in ("error", "warning") or finding.undecided is not None
+
+
 def worst_first(findings: Iterable[Finding]) -> list[Finding]:
     """By severity, then the thicker overlap, then the deeper one, then the earlier hit."""
     return sorted(findings, key=rank)

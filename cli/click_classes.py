@@ -35,9 +35,18 @@ SECTIONS = {
 }
 
 
-class Command(click.Command):
-    """Its help is a document like any other: when it cannot be written, that is said. Many options
-    stand under headings."""
+class _Helping(click.Command):
+    """Its help is a document like any other: when it cannot be written, that is said."""
+
+    def get_help_option(self, ctx: click.Context) -> click.Option | None:
+        option = super().get_help_option(ctx)
+        if option is not None:
+            option.callback = _show_help
+        return option
+
+
+class Command(_Helping):
+    """Many options stand under headings."""
 
     def __init__(self, *args: Any, daily: str = "", **more: Any) -> None:
         """daily: the names of the options that --help shows; --help-all shows all."""
@@ -60,9 +69,6 @@ class Command(click.Command):
                 records = (option.get_help_record(ctx) for option in chosen)
                 formatter.write_dl([record for record in records if record is not None])
 
-    def get_help_option(self, ctx: click.Context) -> click.Option | None:
-        return _written(super().get_help_option(ctx))
-
 
 def _show_all(ctx: click.Context, option: click.Parameter, wanted: bool) -> None:
     if wanted:
@@ -72,19 +78,10 @@ def _show_all(ctx: click.Context, option: click.Parameter, wanted: bool) -> None
     _show_help(ctx, option, wanted)
 
 
-class Group(click.Group):
-    """The same of a group of commands, and of those in it."""
+class Group(_Helping, click.Group):
+    """A group of commands."""
 
     command_class = Command
-
-    def get_help_option(self, ctx: click.Context) -> click.Option | None:
-        return _written(super().get_help_option(ctx))
-
-
-def _written(option: click.Option | None) -> click.Option | None:
-    if option is not None:
-        option.callback = _show_help
-    return option
 
 
 def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import click
 from click.core import ParameterSource
@@ -27,7 +27,7 @@ from satcheck.report.json import document as json_document
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class Target(Struct, frozen=True):
+class Target(NamedTuple):
     """A document to write. output: its file; None: standard output."""
 
     form: str
@@ -35,9 +35,10 @@ class Target(Struct, frozen=True):
 
 
 class FormatChoice(click.Choice[str]):
-    """A name of a format, also one that another package registers."""
+    """A name of a format of these kinds, also one that another package registers. also: further
+    formats, and what the command means by a name."""
 
-    def __init__(self, kinds: tuple[Kind, ...], also: Mapping[str, Format]) -> None:
+    def __init__(self, kinds: tuple[Kind, ...], also: Mapping[str, Format] = {}) -> None:
         self._kinds = kinds
         self._also = also
         super().__init__([*self.known()])
@@ -45,6 +46,12 @@ class FormatChoice(click.Choice[str]):
     def known(self) -> dict[str, Format]:
         """Return the formats that are registered by now, by name."""
         return {**formats(self._kinds), **self._also}
+
+    def ending_in(self, ending: str) -> Format | None:
+        """Return the format of files whose names end so; None: there is none."""
+        own = (each for each in reversed(self.known().values()) if ending in each.endings)
+        found = next(own, None) or format_of(ending)
+        return found if found is not None and found.name in self.known() else None
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         found = format_named(value)
@@ -56,13 +63,9 @@ class FormatChoice(click.Choice[str]):
 
 
 def format_option(
-    kinds: tuple[Kind, ...],
-    default: str = "as FILE ends, else table",
-    also: Mapping[str, Format] = {},
+    choice: FormatChoice, default: str = "as FILE ends, else table"
 ) -> Callable[[Command], Command]:
-    """Return the option --format of a command that writes formats of these kinds. also: further
-    formats, and what this command means by a name."""
-    choice = FormatChoice(kinds, also)
+    """Return the option --format of a command that writes these formats."""
 
     def tell() -> str:
         known = choice.known().items()
@@ -79,14 +82,12 @@ def _with_ending(name: str, known: Format) -> str:
     return f"{name} ({others[0]})" if others else name
 
 
-form_option = format_option(PLAIN, "json if the file of -o ends in .json, otherwise table")
+_PLAIN = FormatChoice(PLAIN)
+form_option = format_option(_PLAIN, "json if the file of -o ends in .json, otherwise table")
 
 
 def targets_of(
-    form: str | None,
-    outputs: Sequence[Path],
-    kinds: tuple[Kind, ...],
-    also: Mapping[str, Format] = {},
+    form: str | None, outputs: Sequence[Path], choice: FormatChoice
 ) -> tuple[Target, ...]:
     """Return the documents that a call asks for: one for each -o, else one on standard output. The
     form is that of standard output, or of the only file. Raises as `form_of`."""
@@ -96,39 +97,27 @@ def targets_of(
     is_shown = STANDARD_OUTPUT in paths
     if form is not None and len(paths) > 1 and not is_shown:
         raise click.UsageError("--format is about one document, and several files are named")
-    known, targets = {**formats(kinds), **also}, []
+    targets = []
     for path in paths:
         output = None if path == STANDARD_OUTPUT else path
         own = form if output is None or not is_shown else None
-        targets.append(Target(form_of(own, output, known, kinds), output))
+        targets.append(Target(form_of(own, output, choice), output))
     return tuple(targets)
 
 
-def form_of(
-    form: str | None,
-    output: Path | None,
-    known: Mapping[str, Format],
-    others: tuple[Kind, ...] = (),
-) -> str:
+def form_of(form: str | None, output: Path | None, choice: FormatChoice) -> str:
     """Return the format of a command that writes these: as given, else as the name of the file
-    says. others: the kinds of formats that other packages may register. Raises click.UsageError for
-    a name that promises what the command does not write."""
-    if form is not None and form not in known:
-        raise click.UsageError(f"--format {form}: this command writes {', '.join(known)}")
+    says. Raises click.UsageError for a name that promises what the command does not write."""
     ending = "" if output is None else output.suffix.lower()
     if form is not None or not ending:
         return form or "table"
-    own = (each for each in reversed(list(known.values())) if ending in each.endings)
-    named = next(own, None) or format_of(ending)
-    if named is None or not (named.name in known or named.kind in others):
-        raise click.UsageError(f"{output}: {unknown_ending(known.values())}")
+    named = choice.ending_in(ending)
+    if named is None:
+        known = choice.known().values()
+        *endings, last = dict.fromkeys(each.endings[0] for each in known if each.endings)
+        written = f"{', '.join(endings)} or {last}: end the name so, or give --format"
+        raise click.UsageError(f"{output}: this command writes {written}")
     return named.name
-
-
-def unknown_ending(known: Iterable[Format]) -> str:
-    """`this command writes .txt, .json or .csv: end the name so, or give --format`."""
-    *endings, last = dict.fromkeys(each.endings[0] for each in known if each.endings)
-    return f"this command writes {', '.join(endings)} or {last}: end the name so, or give --format"
 
 
 def _is_overridden() -> bool:
@@ -152,7 +141,7 @@ def product_and_report(
         if len(same) > 1:
             raise click.UsageError(f"-o {same[1]}: {same[0]} is named for that")
     product, report = (next(iter(each), None) for each in (products, reports))
-    known = (*endings, *(end for each in formats(PLAIN).values() for end in each.endings))
+    known = (*endings, *(end for each in _PLAIN.known().values() for end in each.endings))
     if report is not None and form is None and report.suffix.lower() not in ("", *known):
         raise click.UsageError(f"{report}: this command writes {', '.join(known)}: end the name so")
     return product, None if report == STANDARD_OUTPUT else report
@@ -164,7 +153,7 @@ def plain_call(
     """Return what a command begins with that writes JSON and a table: its inputs, which it takes
     from the options, the format, and standard output. other: a file that it writes beside the
     report. Raises click.UsageError for what can be seen to fail."""
-    inputs, form = Inputs.taken_from(options), form_of(form, output, formats(PLAIN))
+    inputs, form = Inputs.taken_from(options), form_of(form, output, _PLAIN)
     refuse_early(inputs, (output, other))
     return inputs, form, Document()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
@@ -14,7 +14,7 @@ from click.core import ParameterSource
 
 from satcheck.audit.words import counted
 from satcheck.cli.option import STANDARD_OUTPUT, origin_of
-from satcheck.cli.output import cannot_write, issue_line, talk
+from satcheck.cli.output import cannot_write, talk, tell_issues
 from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
@@ -47,17 +47,14 @@ class Inputs(LoadOptions, frozen=True, kw_only=True):
 
     @classmethod
     def taken_from(cls, options: dict[str, Any]) -> Self:
-        """Removes its own options from `options` and leaves the others."""
+        """Removes its own options from `options` and leaves the others, with the limits of reading
+        a file, which a report states."""
         values = {name: options.pop(name) for name in cls.__struct_fields__ if name in options}
         if limit := values.get("limit"):
-            values["seconds_per_file"] = limit["seconds"]
-            values["megabytes_per_file"] = limit["megabytes"]
+            per_file = {f"{name}_per_file": limit[name] for name in ("seconds", "megabytes")}
+            values |= per_file
+            options |= per_file
         return cls(**values)
-
-    @property
-    def limits(self) -> dict[str, float | int]:
-        """For reading a file, as a report states them."""
-        return {name: getattr(self, name) for name in ("seconds_per_file", "megabytes_per_file")}
 
     def mesh_files(self, reading: ReadOptions) -> MeshFiles:
         """To read the mesh files of a scene once more, with the options that it has read them
@@ -146,8 +143,7 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
         instead = f'units = "{inputs.units}" of a body in a scene file overrides it'
         talk(f"satcheck: note: --units has no effect: each file states its unit; {instead}")
     told = (issue for issue in scene.issues if tell_all or issue.severity == "error")
-    for issue in dict.fromkeys(told):
-        talk(f"satcheck: {issue_line(issue)}")
+    tell_issues(dict.fromkeys(told))
     advice = _advice(paths, scene)
     if scene.asks_for_support or scene.asks_for_regions:
         least = 1
@@ -155,8 +151,7 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2, *, tell_all: bool 
         if scene.unreadable:
             said = "an input could not be used: there is no pair to check"
             raise click.ClickException("\n".join([said, *advice]))
-        for line in _why_gone(scene):
-            talk(line)
+        tell_issues(issue for issue in scene.issues if issue.code in _OF_NO_BODY)
         if not scene.bodies:
             raise click.UsageError(f"there is no body: {_more(inputs)}")
         raise _one_body(inputs, scene)
@@ -224,13 +219,6 @@ def _more(inputs: Inputs) -> str:
     if mesh is None:
         return f"give mesh files beside {inputs.paths[0]}, or a scene of two bodies"
     return "give two or more mesh files, or a scene file"
-
-
-def _why_gone(scene: Scene) -> Iterator[str]:
-    """Return what in the inputs is no body, and why."""
-    for issue in scene.issues:
-        if issue.code in _OF_NO_BODY:
-            yield f"satcheck: {issue_line(issue)}"
 
 
 def _one_body(inputs: Inputs, scene: Scene) -> click.ClickException:

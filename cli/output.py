@@ -55,6 +55,12 @@ def talk(line: str) -> None:
         sys.stderr.flush()
 
 
+def tell_issues(issues: Iterable[Issue | InputIssue]) -> None:
+    """A line to stderr for each."""
+    for issue in issues:
+        talk(f"satcheck: {issue_line(issue)}")
+
+
 def cannot_write(where: str, reason: str | None) -> click.ClickException:
     """The document could not be delivered. To be raised."""
     return click.ClickException(f"{where}: cannot write: {reason} [cannot-write]")

@@ -58,7 +58,10 @@ def on_path(scene: Scene, inputs: Inputs, file: str) -> Scene:
 
 
 def posed_once(scene: Scene, inputs: Inputs, several: str) -> Scene:
-    """The scene in the one pose of the options. several: the UsageError where they give more."""
+    """The scene in the one pose of the options, if there is any. several: the UsageError where they
+    give more."""
+    if not inputs.has_poses:
+        return scene
     pose = poses_of(scene, inputs)
     if not isinstance(pose, Mapping):
         raise click.UsageError(several)

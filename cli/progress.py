@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import sys
 from _thread import allocate_lock
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, TypeVar
 
 from satcheck.cli.output import harmless
 from satcheck.core.steps import current
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from rich.progress import Progress, Task, TaskID
+
+_T = TypeVar("_T")
 
 # Seconds before the bar appears: shorter work answers before anyone would read it.
 PATIENCE = 0.7
@@ -113,3 +116,12 @@ class Bar:
             left = timedelta(seconds=round(task.time_remaining))
             return f"{counted}{task.speed:.3g}/s, {left} left"
         return f"{counted}{timedelta(seconds=round(task.elapsed or 0.0))}"
+
+
+def counting(things: Sequence[_T], unit: str, verb: str) -> Iterator[_T]:
+    """Yield them under a bar, which counts those that are done. unit, verb: as in Bar."""
+    with Bar(unit, verb) as bar:
+        for number, thing in enumerate(things, 1):
+            yield thing
+            if bar is not None:
+                bar(number, len(things))

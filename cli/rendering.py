@@ -16,7 +16,7 @@ from satcheck.cli.format_option import Target
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.summary import FACETED, MESHES, closing
 from satcheck.cli.inputs import Inputs
-from satcheck.cli.output import Document, Page, harmless, issue_line, talk
+from satcheck.cli.output import Document, Page, harmless, talk, tell_issues
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
 from satcheck.report.samples import SamplesReport
@@ -76,7 +76,7 @@ def rendered(
 def deliver(document: Document, result: Report | SamplesReport, scene: Scene, to: Delivery) -> None:
     """Write the documents, and say on stderr what none of them shows."""
     shown = [target for target in to.targets if target.output is not None or not to.quiet]
-    for form, output in ((target.form, target.output) for target in shown):
+    for form, output in shown:
         document.deliver(partial(rendered, result, scene, form, to), output, utf8=form != "table")
     files = "" if to.quiet else files_line(result, scene, to)
     is_told = bool(shown) and all(target.output is not None for target in shown)
@@ -87,9 +87,8 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
     """Errors of the run on stderr, and the files it wrote. written: the report is in a file, so
     also the warnings and the summary."""
     told = {(issue.code, issue.body, issue.message) for issue in scene.issues}
-    for issue in result.issues:
-        if issue.severity == "error" and (issue.code, issue.body, issue.message) not in told:
-            talk(f"satcheck: {issue_line(issue)}")
+    errors = (issue for issue in result.issues if issue.severity == "error")
+    tell_issues(i for i in errors if (i.code, i.body, i.message) not in told)
     if not written:
         if files:
             talk(files)
@@ -103,8 +102,7 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
         counts, *others = closing(result, written=True)
     warnings = [i for i in result.issues if i.severity == "warning" or i.code == FACETED]
     warnings.sort(key=lambda issue: issue.code in MESHES)  # the least grave
-    for issue in warnings[:WARNINGS]:
-        talk(f"satcheck: {issue_line(issue)}")
+    tell_issues(warnings[:WARNINGS])
     if len(warnings) > WARNINGS:
         talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
     talk(harmless(counts))
@@ -133,7 +131,7 @@ def _what(form: str, report: Report | SamplesReport, scene: Scene, pose: int | N
         if pose is None and (worst := worst_pose(report)):
             pose = worst.number
         return "Image of all bodies" if pose is None else f"Image of pose {pose}"
-    from satcheck.cli.formats.picture.data import drawn_finding
+    from satcheck.cli.formats.picture import drawn_finding
 
     finding = drawn_finding(report, scene)
     return f"Image of {f'{finding.a} and {finding.b}' if finding else 'all bodies'}"

@@ -29,7 +29,7 @@ from satcheck.cli.format_option import Target
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
 from satcheck.cli.option import names_of_lengths
-from satcheck.cli.output import Document, cannot_write, issue_line, talk
+from satcheck.cli.output import Document, cannot_write, issue_line, talk, tell_issues
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
 from satcheck.core.errors import SatcheckError
@@ -96,8 +96,7 @@ def check_worlds(
         issues = _interrupted(left, len(worlds)) if left else (tally.unused or ()) * complete
         issues += _about_baseline(terms)
         if seen is not None:
-            for issue in () if to.quiet else issues:
-                talk(f"satcheck: {issue_line(issue)}")
+            tell_issues(() if to.quiet else issues)
             return seen.exit_code(exit_zero=to.exit_zero)
         new = nullcontext(NewResults(Path(path), tally.done))
         read = StoredResults([Path(path)]) if stays else new
@@ -259,7 +258,7 @@ def check_options(
         read_rules(path, inputs.permitted)
     return CheckOptions(
         **{name: getattr(inputs, name) for name in LoadOptions.__struct_fields__},
-        settings={**options, **inputs.limits},
+        settings=options,
         names=names_of_lengths(options),
         baseline=None if baseline is None else str(baseline),
         config=config,
@@ -293,7 +292,7 @@ def deliver_assets(
     if drawing.folder is not None or "html" in to.forms:
         worst = worst_findings(stored, drawing.top)
         illustrated = with_pictures(worst, drawing)
-    for form, output in ((target.form, target.output) for target in to.targets):
+    for form, output in to.targets:
         # Where no asset changed, stderr says so.
         if output is None and (to.quiet or (form == "table" and not (len(stored) or seen.issues))):
             continue
@@ -320,8 +319,7 @@ def tell_assets(seen: Overview, to: Delivery) -> None:
 
     files = [str(target.output) for target in to.targets if target.output is not None]
     if files or to.forms != {"table"}:
-        for issue in seen.issues:
-            talk(f"satcheck: {issue_line(issue)}")
+        tell_issues(seen.issues)
     if files and seen.total:
         talk(" ".join([summary_line(seen), *next_step(seen), f"Report: {', '.join(files)}"]))
 

@@ -13,15 +13,14 @@ from msgspec.structs import replace
 
 from satcheck.audit.batch.key import digest
 from satcheck.audit.batch.stored import Stored
-from satcheck.audit.words import rank
+from satcheck.audit.words import is_wrong, rank
 from satcheck.cli.formats.assets import worst_of
 from satcheck.cli.output import cannot_write, harmless, talk, write_file
-from satcheck.cli.progress import Bar
+from satcheck.cli.progress import counting
 from satcheck.cli.stated_scene import stated_scene
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset
 from satcheck.report.report import Finding, Report
-from satcheck.report.verdict import severity
 
 # A larger scene is drawn without its other bodies.
 MOST_BODIES = 100
@@ -49,10 +48,8 @@ class Worst(NamedTuple):
     stored: Stored
 
 
-class Illustrated(NamedTuple):
-    asset: Asset
-    finding: Finding
-    picture: Picture
+# The asset, its finding and the picture of it.
+Illustrated = tuple[Asset, Finding, Picture]
 
 
 def worst_findings(results: Iterable[Stored], top: int) -> list[Worst]:
@@ -61,13 +58,9 @@ def worst_findings(results: Iterable[Stored], top: int) -> list[Worst]:
     findings = (
         Worst(min(listed, key=rank), stored)
         for stored in results
-        if (listed := [each for each in stored.asset.report.findings if _is_wrong(each)])
+        if (listed := [each for each in stored.asset.report.findings if is_wrong(each)])
     )
     return worst_of(findings, top, lambda each: rank(each.finding, each.stored.asset.report.units))
-
-
-def _is_wrong(finding: Finding) -> bool:
-    return severity(finding) in ("error", "warning") or finding.undecided is not None
 
 
 def with_pictures(worst: Sequence[Worst], drawing: Drawing) -> Iterator[Illustrated]:
@@ -75,14 +68,11 @@ def with_pictures(worst: Sequence[Worst], drawing: Drawing) -> Iterator[Illustra
     now, folder = lru_cache(_DIGESTS)(digest), drawing.folder
     if folder is not None:
         _make(folder)
-    with Bar("pictures", "drawing") as bar:
-        for number, each in enumerate(worst, 1):
-            picture = drawing.undrawn or _picture(each, drawing, now)
-            if folder is not None:
-                _write(folder / file_name(number, each), each, picture)
-            yield Illustrated(each.stored.asset, each.finding, picture)
-            if bar is not None:
-                bar(number, len(worst))
+    for number, each in enumerate(counting(worst, "pictures", "drawing"), 1):
+        picture = drawing.undrawn or _picture(each, drawing, now)
+        if folder is not None:
+            _write(folder / file_name(number, each), each, picture)
+        yield each.stored.asset, each.finding, picture
 
 
 def _make(folder: Path) -> None:
@@ -108,22 +98,14 @@ def file_name(number: int, worst: Worst) -> str:
 
 
 def _picture(worst: Worst, drawing: Drawing, now: Callable[[str], str | None]) -> Picture:
-    changed = _changed(worst.stored, drawing.root, now)
-    if changed is not None:
-        return changed
+    for file in worst.stored.inputs:
+        sha256 = now(os.path.join(drawing.root, file.path))  # noqa: PTH118  keeps a `/` at the end
+        if sha256 != file.sha256:
+            return f"{file.path} {'is not there' if sha256 is None else 'has changed'}"
     try:
         return _drawn(worst, drawing)
     except SatcheckError as error:
         return str(error)
-
-
-def _changed(stored: Stored, root: Path, now: Callable[[str], str | None]) -> str | None:
-    """Why the files are not those of the check."""
-    for file in stored.inputs:
-        sha256 = now(os.path.join(root, file.path))  # noqa: PTH118  keeps a `/` at the end
-        if sha256 != file.sha256:
-            return f"{file.path} {'is not there' if sha256 is None else 'has changed'}"
-    return None
 
 
 def _drawn(worst: Worst, drawing: Drawing) -> Picture:

@@ -68,8 +68,7 @@ def command(
     inputs, form, document = plain_call(options, form, output, plot)
     refuse_plot(plot)
     scene = load(inputs, tell_all=True)
-    if inputs.has_poses:
-        scene = posed_once(scene, inputs, "axes are those of one pose: give one --pose")
+    scene = posed_once(scene, inputs, "axes are those of one pose: give one --pose")
     rows = TABLE_ROWS if form == "table" and top is None else top
     result = axes_of(scene, bodies, planar=planar, allow_open=allow_open)
     if plot:

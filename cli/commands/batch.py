@@ -21,7 +21,7 @@ from satcheck.cli import option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.config import stated_config
-from satcheck.cli.format_option import Target, format_option, targets_of
+from satcheck.cli.format_option import FormatChoice, Target, format_option, targets_of
 from satcheck.cli.formats.registry import REPORTS, Format
 from satcheck.cli.inputs import Inputs, refuse_early, typed
 from satcheck.cli.output import talk
@@ -41,12 +41,11 @@ _NOT_HERE = (
 )
 _PATTERN = frozenset("*?[")
 # What this command means by these names.
-_FORMATS = {
-    "results": Format(
-        "results", (".jsonl", ".ndjson"), about="a line for each asset, for --resume and view"
-    ),
-    "html": Format("html", (".html", ".htm"), about="a gallery of the worst finding of each asset"),
-}
+_RESULTS = Format(
+    "results", (".jsonl", ".ndjson"), about="a line for each asset, for --resume and view"
+)
+_GALLERY = Format("html", (".html", ".htm"), about="a gallery of the worst finding of each asset")
+_FORMATS = FormatChoice(REPORTS, {"results": _RESULTS, "html": _GALLERY})
 
 
 @click.command(
@@ -71,7 +70,7 @@ _FORMATS = {
     help="Only assets that changed since this git revision, or that name a changed file.",
 )
 @option.exclude
-@format_option(REPORTS, also=_FORMATS)
+@format_option(_FORMATS)
 @click.option(
     "-o",
     "--output",
@@ -176,7 +175,7 @@ def _targets(form: str | None, outputs: Sequence[str]) -> tuple[tuple[Target, ..
         raise click.UsageError(f"-o {urls[0]}: a URL takes the results, and no other document")
     if urls:
         return (), urls[0]
-    targets = targets_of(form, [Path(name) for name in outputs], REPORTS, _FORMATS)
+    targets = targets_of(form, [Path(name) for name in outputs], _FORMATS)
     results = [target.output for target in targets if target.form == "results"]
     if len(results) > 1 or None in results:
         raise click.UsageError("results go to one file, for --resume: name it, -o results.jsonl")

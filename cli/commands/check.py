@@ -23,7 +23,7 @@ from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import all_commands
-from satcheck.cli.format_option import format_option, targets_of
+from satcheck.cli.format_option import FormatChoice, format_option, targets_of
 from satcheck.cli.formats.registry import ALL, function_of, kind_of
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.option import length, settings_of
@@ -48,6 +48,7 @@ SMALL_BODIES = 2
 SMALL_TRIANGLES = 1000
 # Objects made between two searches for cycles: of what a check makes almost none is in one.
 COLLECT_AFTER = 50_000
+FORMATS = FormatChoice(ALL)
 WIDTH = option.Number(0, 1, min_open=True, max_open=True)
 
 
@@ -127,7 +128,7 @@ units split sample explain version"""
     daily=DAILY,
 )
 @option.paths("A B [C ...]")
-@format_option(ALL)
+@format_option(FORMATS)
 @option.outputs(
     "Write the report to FILE, in the format that its name ends with; - is standard output. "
     "Repeatable."
@@ -214,7 +215,7 @@ def command(
     inputs = Inputs.taken_from(options)
     refuse_early(inputs, outputs, baseline)
     to = Delivery(
-        targets_of(form, outputs, ALL), quiet, exit_zero, options["timings"], top, explain
+        targets_of(form, outputs, FORMATS), quiet, exit_zero, options["timings"], top, explain
     )
     refuse_certificate(to.forms, wanted=options["certificate"])
     pictures = [form for form in to.forms if kind_of(form) == "picture"]
@@ -242,10 +243,9 @@ def command(
         for advice in about_assets(inputs.paths, scene):
             talk(str(advice))
     scene, poses = _placed(scene, inputs)
-    settings = {**options, **inputs.limits}
     result: Report | SamplesReport
     if poses is None:
-        asked = settings_of(settings, scene)
+        asked = settings_of(options, scene)
         result = _check(scene, asked if known is None else measuring(asked))
         if baseline is not None and known is not None:
             names = names_in_baseline(inputs.paths, baseline)
@@ -254,7 +254,7 @@ def command(
             result = with_stated_places(result, scene)
     else:
         refuse_of_poses(to.forms, explain=explain, baseline=baseline, **options)
-        result = _check_poses(scene, poses, settings_of(settings, scene), inputs.random_seed)
+        result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
     if config is not None:
         result = replace(result, config=config)
     deliver(document, result, scene, to)

@@ -18,7 +18,7 @@ from satcheck.cli.format_option import deliver, form_option, plain_call, product
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
 from satcheck.cli.inputs import load
 from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
-from satcheck.cli.progress import Bar
+from satcheck.cli.progress import counting
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import HalfSpace, is_curved
 from satcheck.core.steps import step
@@ -130,12 +130,9 @@ def _split_each(
     bodies: Sequence[Body], threshold: float, seed: int, seconds: float
 ) -> list[_Split]:
     store, done = user_cache(), []
-    with Bar("bodies") as bar:
-        for number, body in enumerate(bodies, 1):
-            with step(f"splitting {body.id}, {number} of {len(bodies)}"):
-                done.append((body, _split(body, threshold, seed, seconds, store)))
-            if bar is not None:
-                bar(number, len(bodies))
+    for number, body in enumerate(counting(bodies, "bodies", "splitting"), 1):
+        with step(f"splitting {body.id}, {number} of {len(bodies)}"):
+            done.append((body, _split(body, threshold, seed, seconds, store)))
     return done
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -11,22 +11,25 @@ import click
 
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.resolve.resolve import resolve
+from satcheck.audit.words import counted, number, vector, with_unit
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call, product_and_report
-from satcheck.cli.formats.resolution import render
+from satcheck.cli.formats.summary import counts_line
+from satcheck.cli.formats.tables import ROWS, Column, fitted_each, joined, table
 from satcheck.cli.inputs import Inputs, load
 from satcheck.cli.option import in_units_of, length, settings_of
-from satcheck.cli.output import issue_line, talk, write_file
+from satcheck.cli.output import Page, talk, tell_issues, write_file
 from satcheck.cli.posing import posed_once
 from satcheck.cli.progress import Bar
 from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
+from satcheck.report.resolution import Move, ResolutionReport, ResolutionSummary
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.files.readers import kind_of
 from satcheck.scene.loader import is_rules
 from satcheck.scene.new_scene_file import left_out_of, new_scene_file, stray_mesh
-from satcheck.scene.units import Length
+from satcheck.scene.units import Length, unit_of
 
 
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
@@ -85,10 +88,9 @@ def command(
     if scene_out is not None:
         _refuse_output(inputs, scene_out)
     scene = load(inputs)
-    if inputs.has_poses:
-        scene = posed_once(scene, inputs, "resolve takes one pose, which places the links")
+    scene = posed_once(scene, inputs, "resolve takes one pose, which places the links")
     stray = scene_out and _stray(scene_out, scene, allow_outside=inputs.allow_outside)
-    settings = settings_of({**options, **inputs.limits}, scene)
+    settings = settings_of(options, scene)
     farthest = None
     if max_motion is not None:
         farthest = in_units_of(max_motion, scene.units, "--max-motion")
@@ -104,7 +106,7 @@ def command(
             checked=written,
             output=None if scene_out is None else str(scene_out),
         )
-    deliver(document, resolution, form, output, partial(render, resolution, report))
+    deliver(document, resolution, form, output, partial(_table, resolution, report))
     if output is not None:
         talk(f"{report.message} Report: {output}")
     if stray:
@@ -160,7 +162,72 @@ def _written(
         path.unlink(missing_ok=True)
         raise
     report = check(moved, settings)
-    for issue in report.issues:
-        if issue.severity == "error":
-            talk(f"satcheck: {issue_line(issue)}")
+    tell_issues(issue for issue in report.issues if issue.severity == "error")
     return report
+
+
+def _table(resolution: ResolutionReport, report: Report, page: Page) -> str:
+    """Return the whole text, final newline included. report: of the moved scene."""
+    shown = list(resolution.moves)
+    if len(shown) > ROWS:  # the longest ones, and not in the order of the scene
+        shown = sorted(shown, key=lambda move: -move.length)[:ROWS]
+    said = []
+    if rest := len(resolution.moves) - len(shown):
+        said.append(f"{counted(rest, 'more body', 'more bodies')} moved by less")
+    messages = {(finding.a, finding.b): finding.message for finding in report.findings}
+    said += (
+        f"not resolved: {messages[left.a, left.b].removesuffix('.')}: {left.reason}"
+        for left in resolution.left
+    )
+    said.append(_motion_line(resolution, report))
+    if resolution.summary.flush:
+        pairs = counted(resolution.summary.flush, "pair")
+        said.append(f"{pairs} within the tolerance: they count as touching.")
+    subject = resolution.output or "The moved scene"
+    said.append(f"{subject}, checked again: {counts_line(report)}")
+    said.append(report.message)
+    lines = _moves(shown, page) if shown else []
+    return joined([*lines, *fitted_each(said, page)], page)
+
+
+def _moves(moves: Sequence[Move], page: Page) -> list[str]:
+    columns = (
+        Column("body", tuple(move.body for move in moves), named=True),
+        Column("move by", tuple(vector(move.translation) for move in moves), folds=True),
+        Column("length", tuple(number(move.length) for move in moves), right=True),
+    )
+    return table(columns, page)
+
+
+def _conflicts(summary: ResolutionSummary) -> str:
+    """`2 overlaps, 3 gaps below their clearance, 1 pair left open by a hole`."""
+    overlaps = summary.conflicts - summary.gaps - summary.open
+    below = counted(summary.gaps, "gap below its clearance", "gaps below their clearance")
+    kinds = {
+        counted(overlaps, "overlap"): overlaps,
+        below: summary.gaps,
+        counted(summary.open, "pair") + " left open by a hole": summary.open,
+    }
+    return ", ".join(text for text, count in kinds.items() if count)
+
+
+def _motion_line(resolution: ResolutionReport, report: Report) -> str:
+    """`2 overlaps: 3 bodies moved by 1.25 mm in total, at most 0.75 mm, in 2 rounds; 1 stays.`"""
+    summary, unit = resolution.summary, unit_of(resolution.units)
+    stays = ""
+    if summary.pinned:
+        stays = f" {counted(summary.pinned, 'body', 'bodies')} had to stay."
+    if not summary.conflicts:
+        where = "as the bodies are placed" if report.motions else "beyond what is allowed"
+        return f"Nothing overlaps {where}: nothing was moved.{stays}"
+    conflicts = _conflicts(summary)
+    if not summary.moved:
+        return f"{conflicts}: nothing was moved.{stays}"
+    total, largest = (
+        with_unit(number(length), unit) for length in (summary.total_motion, summary.largest_motion)
+    )
+    return (
+        f"{conflicts}: {counted(summary.moved, 'body', 'bodies')} moved, "
+        f"by {total} in total and {largest} at most, "
+        f"in {counted(summary.rounds, 'round')}.{stays}"
+    )

@@ -21,12 +21,12 @@ from satcheck.audit.suggest import LOOSER, MEASURED, Suggestions, suggest, sugge
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.commands import DEFAULT_COMMAND
-from satcheck.cli.format_option import form_of, format_option
+from satcheck.cli.format_option import FormatChoice, form_of, format_option
 from satcheck.cli.formats.registry import Format
 from satcheck.cli.formats.suggest import remark, rules_of, srdf, toml
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.option import settings_of
-from satcheck.cli.output import Document, issue_line, talk
+from satcheck.cli.output import Document, talk, tell_issues
 from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
 from satcheck.cli.slips import call_of
@@ -40,11 +40,12 @@ from satcheck.scene import Scene
 from satcheck.scene.opening import is_folder
 from satcheck.scene.robot import Pose, RandomPoses, pose_of_states, posed
 
-FORMATS = {
-    "toml": Format("toml", (".toml",), about="rules for a scene"),
-    "json": Format("json", (".json",), about="data"),
-    "srdf": Format("srdf", (".srdf",), about="disable_collisions for a robot"),
-}
+_WRITTEN = (
+    Format("toml", (".toml",), about="rules for a scene"),
+    Format("json", (".json",), about="data"),
+    Format("srdf", (".srdf",), about="disable_collisions for a robot"),
+)
+FORMATS = FormatChoice((), {each.name: each for each in _WRITTEN})
 
 
 @click.command("suggest", cls=Command, context_settings=HELP_NAMES)
@@ -54,7 +55,7 @@ FORMATS = {
     is_flag=True,
     help="Also suggest pairs that met in none of the poses. It is not proven that they never do.",
 )
-@format_option((), "as the name after -o ends; else toml", FORMATS)
+@format_option(FORMATS, "as the name after -o ends; else toml")
 @option.output
 @option.exclude
 @option.planar
@@ -81,7 +82,7 @@ def command(
     """
     inputs = Inputs.taken_from(options)
     named = form_of(form, output, FORMATS)
-    form = named if named in FORMATS else "toml"
+    form = "toml" if named == "table" else named
     refuse_early(inputs, [output])
     document = Document()
     told: set[str] = set()
@@ -99,15 +100,13 @@ def command(
             raise click.UsageError("SRDF is about one robot: give one URDF")
         robot = scene.robots[0].robot.name if scene.robots else ""
         told = {issue.code for issue in scene.issues}
-        result = _of_scene(scene, inputs, settings_of({**options, **inputs.limits}, scene))
+        result = _of_scene(scene, inputs, settings_of(options, scene))
     pairs = [pair for pair in result.report.suggestions if never or pair.why != "never"]
     if form == "srdf":
         pairs = [pair for pair in pairs if pair.why != "contact"]
     document.deliver(lambda _: _text(form, result, pairs, robot), output, utf8=True)
     errors = [issue for issue in result.issues if issue.severity == "error"]
-    for issue in errors:
-        if issue.code not in told:
-            talk(f"satcheck: {issue_line(issue)}")
+    tell_issues(issue for issue in errors if issue.code not in told)
     talk(remark(result, pairs, never=never))
     if form == "toml" and pairs and output is not None:
         name = "batch" if of_folders else DEFAULT_COMMAND

@@ -20,11 +20,11 @@ from satcheck.audit.batch.stored import ENDINGS, Stored, StoredResults, least_of
 from satcheck.audit.words import is_listed
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import Target, format_option, targets_of
+from satcheck.cli.format_option import FormatChoice, Target, format_option, targets_of
 from satcheck.cli.formats.assets import asset_rank, overview
 from satcheck.cli.formats.registry import ALL, Format, kind_of
 from satcheck.cli.inputs import Inputs, refuse_early
-from satcheck.cli.output import Document, issue_line, talk, write_file
+from satcheck.cli.output import Document, talk, tell_issues, write_file
 from satcheck.cli.rendering import (
     Delivery,
     files_line,
@@ -42,16 +42,15 @@ from satcheck.scene.words import meant
 
 # Assets that a table lists without --top, and findings with a picture.
 TOP = 100
-_FORMATS = {
-    "html": Format(
-        "html", (".html", ".htm"), about="a 3-D view, of several assets a gallery of the worst"
-    )
-}
+_PAGE = Format(
+    "html", (".html", ".htm"), about="a 3-D view, of several assets a gallery of the worst"
+)
+_FORMATS = FormatChoice(ALL, {"html": _PAGE})
 
 
 @click.command("view", cls=Command, context_settings=HELP_NAMES)
 @option.reports
-@format_option(ALL, "as the file of -o ends, otherwise a page in the browser", also=_FORMATS)
+@format_option(_FORMATS, "as the file of -o ends, otherwise a page in the browser")
 @option.outputs(
     "Write to FILE, in the format that its name ends with; - is standard output. Repeatable."
 )
@@ -123,7 +122,7 @@ def command(
     inputs = Inputs(paths=tuple(map(str, (*reports, *filter(None, [manifest])))))
     is_opened = form is None and not outputs and folder is None
     refuse_early(inputs, outputs)
-    targets = () if is_opened else targets_of(form, outputs, ALL, _FORMATS)
+    targets = () if is_opened else targets_of(form, outputs, _FORMATS)
     to = Delivery(targets, False, exit_zero, timings=True, top=top, parts=parts, pose=pose)
     view = _View(Document(), to, Drawing(root, folder, allow_outside, top or TOP))
     if any(path.suffix.lower() in ENDINGS for path in reports):
@@ -168,8 +167,7 @@ class _View(NamedTuple):
         if alone or is_page:
             code = self._replace(to=replace(self.to, targets=tuple(alone)))._worst(stored)
         if is_page or not others:
-            for issue in issues:
-                talk(f"satcheck: {issue_line(issue)}")
+            tell_issues(issues)
             of_issues = exit_codes.for_counts(Counter([least_of(issues)]))
             return min(filter(None, (code, of_issues)), default=exit_codes.CLEAN)
         to = replace(self.to, targets=others)
@@ -206,10 +204,9 @@ class _View(NamedTuple):
         if pictures or not self.to.targets:
             root, allow_outside = self.drawing.root, self.drawing.allow_outside
             scene, issues = stated_scene(stated, root, allow_outside=allow_outside)
-        for issue in issues:
-            talk(f"satcheck: {issue_line(issue)}")
+        tell_issues(issues)
         stated = replace(stated, issues=(*issues, *stated.issues))
-        for form, output in ((target.form, target.output) for target in self.to.targets):
+        for form, output in self.to.targets:
             text = partial(rendered, stated, scene, form, self.to)
             self.document.deliver(text, output, utf8=form != "table")
         if not self.to.targets:

@@ -33,7 +33,7 @@ from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
-    from satcheck.report.report import BodyReport, Finding, Report
+    from satcheck.report.report import Finding, Report
 
 _ISSUE_STYLES = {"warning": YELLOW, "note": ""}
 
@@ -148,16 +148,12 @@ def _of_bodies(report: Report) -> Iterator[str]:
             pairs[id_] += 1
             swept[id_] += past_holes(finding)
     for body in report.bodies:
-        yield from _body(body, pairs[body.id], swept[body.id])
-
-
-def _body(body: BodyReport, pairs: int, swept: int) -> list[str]:
-    if is_unusable(body):
-        return [f"{body.id}: could not be used, its {counted(pairs, 'pair')} not checked"]
-    if body.health is None or not body.health.holes or not swept:
-        return []
-    moving = counted(swept, "pair moves", "pairs move")
-    return [f"{body.id} has holes: {moving} past them, and they may be filled"]
+        if is_unusable(body):
+            lost = counted(pairs[body.id], "pair")
+            yield f"{body.id}: could not be used, its {lost} not checked"
+        elif body.health is not None and body.health.holes and swept[body.id]:
+            moving = counted(swept[body.id], "pair moves", "pairs move")
+            yield f"{body.id} has holes: {moving} past them, and they may be filled"
 
 
 def _issues(report: Report, shown: Sequence[Finding], page: Page) -> Iterator[str]:

@@ -104,12 +104,9 @@ def _found(findings: Sequence[Finding], unit: str | None) -> list[str]:
 def _line(finding: Finding, unit: str | None) -> str:
     if finding.at_rest == "separated" and finding.motion is not None:
         return f"{finding.a} {in_motion(finding, unit, f' {finding.b}')}"
-    return f"{finding.a} and {finding.b} {finding.relation}{_depth(finding, unit)}"
-
-
-def _depth(finding: Finding, unit: str | None) -> str:
     known = finding.relation in OVERLAPS and finding.depth is not None
-    return f" {with_unit(interval(finding.depth_bounds), unit)}" if known else ""
+    depth = f" {with_unit(interval(finding.depth_bounds), unit)}" if known else ""
+    return f"{finding.a} and {finding.b} {finding.relation}{depth}"
 
 
 def _pairs(pairs: Sequence[SampledPair], samples: int, page: Page) -> list[str]:

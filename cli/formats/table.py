@@ -20,6 +20,7 @@ from satcheck.audit.words import (
     interval,
     is_hit,
     is_unusable,
+    is_wrong,
     number,
     vector,
     without_root,
@@ -109,10 +110,8 @@ def _of_usable_bodies(report: Report) -> list[Finding]:
 
 def _is_told(finding: Finding, report: Report) -> bool:
     """Return whether the pair fails, warns, is undecided or has a figure that was asked for."""
-    if severity(finding) in ("error", "warning") or finding.undecided is not None:
-        return True
     asked = report.settings.contacts or report.settings.volume or report.settings.components
-    return asked and finding.relation != "separated"
+    return is_wrong(finding) or (asked and finding.relation != "separated")
 
 
 def _passing(report: Report, findings: Sequence[Finding], told: Sequence[Finding]) -> Iterator[str]:

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from satcheck.audit import check
 from satcheck.audit.samples import check_poses
-from satcheck.cli.formats.picture.data import picture_data
+from satcheck.cli.formats.picture.html import picture_data
 from satcheck.cli.formats.picture.moments import Moments, moments_of
 from satcheck.cli.formats.picture.poses import all_poses, one_pose, worst_pose
 from satcheck.cli.formats.picture.shown import Shows

@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.cli.formats.picture.data import picture_data
-from satcheck.cli.formats.picture.html import render
+from satcheck.cli.formats.picture.html import picture_data, render
 from satcheck.cli.formats.picture.packing import STEPS, simplified
 from satcheck.cli.formats.picture.parts import parts_of
 from satcheck.core import Mesh
@@ -126,7 +125,7 @@ def ball(segments: int) -> Mesh:
 def test_bodies_without_findings_are_simplified_until_they_fit(
     monkeypatch: pytest.MonkeyPatch, room: int
 ) -> None:
-    monkeypatch.setattr("satcheck.cli.formats.picture.data.ROOM", room)
+    monkeypatch.setattr("satcheck.cli.formats.picture.html.ROOM", room)
     corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     tip = (corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     far = (np.asarray(ball(64).vertices) + 5.0, np.asarray(ball(64).triangles))
@@ -198,7 +197,7 @@ def test_figures_of_a_finding_are_in_the_frame_of_the_page() -> None:
         np.array(finding.components.items[0].bounds[0]) - middle
     )
     low, high = np.array(shown["box"])
-    points = sums(data["points"], "<u2").reshape(3, -1).T / STEPS * (high - low) + low
+    points = sums(shown["points"], "<u2").reshape(3, -1).T / STEPS * (high - low) + low
     (curve,) = finding.contacts.curves
     off = (high - low).max() / STEPS
     assert points[: len(curve.points)] == pytest.approx(np.array(curve.points) - middle, abs=off)

@@ -11,7 +11,7 @@ import numpy as np
 
 from satcheck.audit import Settings, check
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
-from satcheck.cli.formats.picture.data import picture_data
+from satcheck.cli.formats.picture.html import picture_data
 from satcheck.cli.formats.picture.png import ARROW, FAILS, FORCE, KINDS, render
 from satcheck.cli.formats.picture.raster import MARKS
 from satcheck.report.report import Report

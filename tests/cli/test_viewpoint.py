@@ -9,7 +9,8 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.audit.words import figure, short_names
-from satcheck.cli.formats.picture.data import headline, picture_data
+from satcheck.cli.formats.picture import headline
+from satcheck.cli.formats.picture.html import picture_data
 from satcheck.cli.formats.picture.moments import Moments
 from satcheck.cli.formats.picture.png import view_of
 from satcheck.cli.formats.picture.shown import Shown, Shows

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
-from satcheck.cli.formats.picture.data import listed
+from satcheck.cli.formats.picture import listed
 from satcheck.cli.formats.registry import pieces
 from satcheck.cli.formats.table import render as render_table
 from satcheck.cli.output import PLAIN_PAGE

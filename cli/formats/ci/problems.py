@@ -88,7 +88,7 @@ def _of_report(report: Report) -> list[Problem]:
     findings = [
         _of_finding(finding, level, places)
         for finding in report.findings
-        if (level := _level(finding)) is not None
+        if (level := severity(finding)) in ("error", "warning", "note")
     ]
     unmet = {answer.body for answer in report.answers if answer.severity == "error"}
     return findings + [_of_issue(issue, places, unmet) for issue in report.issues]
@@ -106,12 +106,6 @@ def near(file: str) -> str:
     path = Path(os.path.normpath(Path.cwd() / file))
     inside = path.is_relative_to(Path.cwd())
     return (path.relative_to(Path.cwd()) if inside else path).as_posix()
-
-
-def _level(finding: Finding) -> Level | None:
-    """None: no problem."""
-    level = severity(finding)
-    return level if level in ("error", "warning", "note") else None
 
 
 def _of_finding(finding: Finding, level: Level, places: dict[str, Place]) -> Problem:

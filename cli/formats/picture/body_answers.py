@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 from msgspec.structs import replace
 
-from satcheck.cli.formats.picture.marks import sphere_around
+from satcheck.cli.formats.picture.moments import sphere_around
 from satcheck.report.verdict import is_unmet
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def arrows_of(report: Report, scene: Scene) -> list[Arrow]:
     statics = report.support
     if statics is None or not scene.bodies:
         return []
-    return [*_falls(statics, scene.bodies), *_forces(statics, sphere_around(list(scene.bodies))[1])]
+    return [*_falls(statics, scene.bodies), *_forces(statics, sphere_around(scene.bodies)[1])]
 
 
 def _forces(statics: Statics, radius: float) -> list[Arrow]:

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from satcheck.cli.formats.picture.moments import boxes_of, matrix_of
 from satcheck.cli.formats.picture.packing import frame_of, packed, packed_mesh, simplified
 from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
-from satcheck.core.shapes import Box
-from satcheck.scene.bodies import IDENTITY
+from satcheck.core.shapes import Box, Cone, Cylinder, Primitive, Sphere
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -30,14 +30,14 @@ if TYPE_CHECKING:
 Parts = Mapping[str, Sequence["Polytope"]]
 GRIDS = (128, 64, 32, 16, 8)  # cells along the longest side of a mesh
 AS_BOXES = "boxes"
-
-
-class Drawn(NamedTuple):
-    """The number of a packed mesh, and its frame: 4 x 4, from the box of the mesh, whose sides are
-    1, into coordinates of the file."""
-
-    mesh: int
-    frame: Floats
+# What the page draws beside the bodies: balls, rods and arrows, and boxes instead of bodies.
+SOLIDS: Mapping[str, Primitive] = {
+    "sphere": Sphere(1.0),
+    "rod": Cylinder(1.0, 1.0),
+    "cone": Cone(1.0, 1.0),
+    "cube": Box((1.0, 1.0, 1.0)),
+}
+SEGMENTS = 24
 
 
 class Geometry(NamedTuple):
@@ -64,36 +64,41 @@ def geometry(
     mesh, with the frame of the body. parts: body -> one mesh of all, and the triangles of each.
     moved: float32, body -> at each moment what `frames` and `boxes` have of it, 18 numbers.
     """
-    boxes = np.array([body.world_mesh().bounds for body in bodies]).reshape(-1, 2, 3)
-    middle: Floats = np.zeros(3)
+    boxes, middle = boxes_of(bodies), np.zeros(3)
     if len(bodies):
         middle = (boxes[:, 0].min(axis=0) + boxes[:, 1].max(axis=0)) / 2
     meshes = _Meshes()
-    whole = {k: meshes.add(b.file.mesh) for k, b in enumerate(bodies) if b.id in met}
-    hulls = {k: hull for k in whole if (hull := meshes.hull(bodies[k].file.mesh)) is not None}
+    drawn = {k: body.file.mesh for k, body in enumerate(bodies) if body.id in met}
+    for mesh in drawn.values():  # the others take the room that they leave
+        meshes.number(mesh)
+    hulls = {
+        k: meshes.number(hull)
+        for k, mesh in drawn.items()
+        if (hull := meshes.hull(mesh)) is not None
+    }
     split = {
-        k: _parts(meshes, parts[bodies[k].id], bodies[k].file.mesh)
-        for k in whole
+        k: _parts(meshes, parts[bodies[k].id], mesh)
+        for k, mesh in drawn.items()
         if bodies[k].id in parts
     }
-    others = {k: body.file.mesh for k, body in enumerate(bodies) if k not in whole}
-    coarser, words = meshes.add_coarser(others, room)
-    drawn = whole | coarser
-    frames = [
-        _rows(drawn[k].frame, body.transform, middle) if k in drawn else _box_rows(boxes[k], middle)
-        for k, body in enumerate(bodies)
-    ]
+    others = {k: body.file.mesh for k, body in enumerate(bodies) if k not in drawn}
+    coarser, words = meshes.coarser(others.values(), room)
+    drawn |= {k: coarser[mesh] for k, mesh in others.items()}
+    frames = [frame_of(drawn[k]) for k in range(len(bodies))]
+    placements = map(matrix_of, bodies)
+    rows = [_rows(*each, middle) for each in zip(placements, frames, strict=True)]
     values = {
         "bodies": {
             "ids": [body.id for body in bodies],
-            "meshes": [drawn[k].mesh if k in drawn else meshes.box() for k in range(len(bodies))],
-            "frames": packed(np.array(frames, dtype=np.float32)),
+            "meshes": [meshes.number(drawn[k]) for k in range(len(bodies))],
+            "frames": packed(np.array(rows, dtype=np.float32)),
             "boxes": packed((boxes - middle).astype(np.float32)),
         },
-        "hulls": {k: hull.mesh for k, hull in hulls.items()},
+        "solids": {name: packed_mesh(mesh_of(own, SEGMENTS)) for name, own in SOLIDS.items()},
+        "hulls": hulls,
         "parts": split,
         "moved": {
-            k: _moved(drawn[k].frame if k in drawn else None, body, placed[body.id], middle)
+            k: _moved(frames[k], body.file.mesh, placed[body.id], middle)
             for k, body in enumerate(bodies)
             if body.id in placed
         },
@@ -102,10 +107,11 @@ def geometry(
     return Geometry(values, middle, words)
 
 
-def cube() -> Mesh:
-    """From 0 to 1."""
+def _box(mesh: Mesh) -> Mesh:
+    """The box of a mesh, in its coordinates."""
+    low, high = np.array(mesh.bounds)
     centred = mesh_of(Box((1.0, 1.0, 1.0)))
-    return Mesh(np.asarray(centred.vertices) + 0.5, centred.triangles)
+    return Mesh(low + (np.asarray(centred.vertices) + 0.5) * (high - low), centred.triangles)
 
 
 def joined(meshes: Iterable[Mesh]) -> Mesh:
@@ -118,91 +124,79 @@ def joined(meshes: Iterable[Mesh]) -> Mesh:
 
 
 class _Meshes:
-    """Packed, each once. add: returns the number and the frame of a mesh. hull: the same of its
-    hull, whose box is that of the mesh; None where it has no volume."""
+    """Packed, each once."""
 
     def __init__(self) -> None:
         self.packed: list[dict[str, str]] = []
-        self._by_text: dict[tuple[str, ...], int] = {}
-        self.add, self.hull = cache(self._add), cache(self._hull)
+        self._numbers: dict[tuple[str, ...], int] = {}
+        self._texts, self.hull = cache(packed_mesh), cache(_hull)
 
-    def _add(self, mesh: Mesh) -> Drawn:
-        return Drawn(self._number(packed_mesh(mesh)), frame_of(mesh))
-
-    def _hull(self, mesh: Mesh) -> Drawn | None:
-        hull = mesh.convex_hull()
-        return self._add(hull.to_mesh()) if hull.dimension == 3 else None
-
-    def box(self) -> int:
-        return self._number(packed_mesh(cube()))
-
-    def add_coarser(self, meshes: Mapping[int, Mesh], room: int) -> tuple[dict[int, Drawn], str]:
-        """Nothing for what becomes a box; and in words what became of all."""
-        distinct = {id(mesh): mesh for mesh in meshes.values()}
-        room -= sum(len(text) for texts in self._by_text for text in texts)
-        for grid in (None, *GRIDS):
-            fitting = _fitting(distinct, grid, room)
-            if fitting is not None:
-                added = {key: Drawn(self._number(m), frame) for key, (m, frame) in fitting.items()}
-                words = "" if grid is None else f"cells of 1/{grid} of their size"
-                return {k: added[id(mesh)] for k, mesh in meshes.items()}, words
-        return {}, AS_BOXES
-
-    def _number(self, content: dict[str, str]) -> int:
-        number = self._by_text.setdefault(tuple(content.values()), len(self.packed))
+    def number(self, mesh: Mesh) -> int:
+        content = self._texts(mesh)
+        number = self._numbers.setdefault(tuple(content.values()), len(self.packed))
         self.packed += [content] * (number == len(self.packed))
         return number
 
+    def coarser(self, meshes: Iterable[Mesh], room: int) -> tuple[dict[Mesh, Mesh], str]:
+        """Return what is drawn of each mesh so that all fit; and in words what became of them."""
+        distinct = list(dict.fromkeys(meshes))
+        room -= sum(map(_length, self.packed))
+        for grid in (None, *GRIDS):
+            fitting = self._fitting(distinct, grid, room)
+            if fitting is not None:
+                return fitting, "" if grid is None else f"cells of 1/{grid} of their size"
+        return {mesh: _box(mesh) for mesh in distinct}, AS_BOXES
 
-def _fitting(
-    meshes: Mapping[int, Mesh], grid: int | None, room: int
-) -> dict[int, tuple[dict[str, str], Floats]] | None:
-    """None: there is not so much room."""
-    result = {}
-    for key, mesh in meshes.items():
-        drawn = mesh if grid is None else simplified(mesh, grid)
-        content = packed_mesh(drawn)
-        room -= sum(map(len, content.values()))
-        if room < 0:
-            return None
-        result[key] = content, frame_of(drawn)
-    return result
+    def _fitting(
+        self, meshes: Iterable[Mesh], grid: int | None, room: int
+    ) -> dict[Mesh, Mesh] | None:
+        """None: there is not so much room."""
+        drawn = {}
+        for mesh in meshes:
+            drawn[mesh] = mesh if grid is None else simplified(mesh, grid)
+            room -= _length(self._texts(drawn[mesh]))
+            if room < 0:
+                return None
+        return drawn
+
+
+def _hull(mesh: Mesh) -> Mesh | None:
+    """Its box is that of the mesh. None: it has no volume."""
+    hull = mesh.convex_hull()
+    return hull.to_mesh() if hull.dimension == 3 else None
+
+
+def _length(content: Mapping[str, str]) -> int:
+    return sum(map(len, content.values()))
 
 
 def _parts(meshes: _Meshes, parts: Sequence[Polytope], mesh: Mesh) -> dict[str, Any]:
     """scale, offset: from the box of the parts into that of the mesh of the body."""
     solids = [part.to_mesh() for part in parts]
-    drawn = meshes.add(joined(solids))
+    whole = joined(solids)
+    frame = frame_of(whole)
     low, high = np.array(mesh.bounds)
     size = np.where(high > low, high - low, 1.0)
     return {
-        "mesh": drawn.mesh,
-        "scale": (np.diag(drawn.frame)[:3] / size).tolist(),
-        "offset": ((drawn.frame[:3, 3] - low) / size).tolist(),
+        "mesh": meshes.number(whole),
+        "scale": (np.diag(frame)[:3] / size).tolist(),
+        "offset": ((frame[:3, 3] - low) / size).tolist(),
         "triangles": [solid.triangle_count for solid in solids],
     }
 
 
-def _moved(frame: Floats | None, body: Body, placed: Floats, middle: Floats) -> str:
-    mesh = body.file.mesh
-    frame = frame_of(mesh) if frame is None else frame
+def _moved(frame: Floats, mesh: Mesh, placed: Floats, middle: Floats) -> str:
     numbers = []
     for matrix in placed:
         world = np.asarray(mesh.vertices) @ matrix[:3, :3].T + (matrix[:3, 3] - middle)
-        rows = _rows(frame, tuple(matrix.reshape(-1).tolist()), middle)
+        rows = _rows(matrix, frame, middle)
         numbers.append([*rows, *world.min(axis=0), *world.max(axis=0)])
     return packed(np.array(numbers, dtype=np.float32))
 
 
-def _rows(frame: Floats, transform: Sequence[float] | None, middle: Floats) -> Floats:
+def _rows(placement: Floats, frame: Floats, middle: Floats) -> Floats:
     """12 numbers."""
-    matrix = np.array(transform or IDENTITY).reshape(4, 4) @ frame
+    matrix = placement @ frame
     matrix[:3, 3] -= middle
     rows: Floats = matrix[:3].reshape(-1)
     return rows
-
-
-def _box_rows(corners: Floats, middle: Floats) -> Floats:
-    frame: Floats = np.diag([*(corners[1] - corners[0]), 1.0])
-    frame[:3, 3] = corners[0]
-    return _rows(frame, None, middle)

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.picture.data import drawn_finding, listed, require_drawable
-from satcheck.cli.formats.picture.marks import arrow, ball_of, dot, sphere_around
-from satcheck.cli.formats.picture.moments import moments_of
+from satcheck.cli.formats.picture import drawn_finding, listed, require_drawable
+from satcheck.cli.formats.picture.marks import arrow, ball_of, dot
+from satcheck.cli.formats.picture.moments import moments_of, sphere_around
 from satcheck.cli.formats.picture.shown import marks_of
-from satcheck.cli.progress import Bar
+from satcheck.cli.progress import counting
 from satcheck.core.errors import SatcheckError
 from satcheck.core.peers import VolumeMeter
 from satcheck.report.report import OVERLAPS
@@ -50,11 +50,9 @@ def render(report: Report, scene: Scene) -> bytes:
     settings = report.settings
     meter = VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)
     remarks: list[str] = []
-    with meter, Bar(verb="drawing") as bar:
-        for number, finding in enumerate(drawn, 1):
+    with meter:
+        for finding in counting(drawn, "pairs", "drawing"):
             nodes += _marks(finding, [bodies[finding.a], bodies[finding.b]], meter, remarks)
-            if bar is not None:
-                bar(number, len(drawn))
     return glb(nodes, report.units, remarks)
 
 

@@ -68,15 +68,6 @@ def _sphere(centre: Floats, radius: float) -> Mesh:
     return Mesh(np.asarray(ball.vertices) + centre, ball.triangles)
 
 
-def sphere_around(bodies: list[Body]) -> tuple[Floats, float]:
-    """Of the boxes of bodies: centre and radius."""
-    bounds = np.array([body.world_mesh().bounds for body in bodies]).reshape(-1, 2, 3)
-    if not len(bounds):
-        return np.zeros(3), 1.0
-    low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
-    return (low + high) / 2, float(np.linalg.norm(high - low)) / 2
-
-
 def _lifted(mesh: Mesh, height: float) -> Mesh:
     """Shapes stand around the origin."""
     return Mesh(np.add(mesh.vertices, (0.0, 0.0, height)), mesh.triangles)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -36,13 +36,9 @@ class Moments(NamedTuple):
 
     def scene_at(self, scene: Scene, number: int) -> Scene:
         """The scene with its bodies as they stand then."""
-        return replace(scene, bodies=tuple(self._at(body, number) for body in scene.bodies))
-
-    def _at(self, body: Body, number: int) -> Body:
-        placed = self.placed.get(body.id)
-        if placed is None:
-            return body
-        return replace(body, transform=tuple(placed[number].reshape(-1).tolist()))
+        then = {id_: tuple(own[number].reshape(-1).tolist()) for id_, own in self.placed.items()}
+        bodies = (replace(b, transform=then[b.id]) if b.id in then else b for b in scene.bodies)
+        return replace(scene, bodies=tuple(bodies))
 
 
 def moments_of(report: Report, scene: Scene) -> Moments:
@@ -52,7 +48,7 @@ def moments_of(report: Report, scene: Scene) -> Moments:
     about = {finding.id: t for finding in report.findings if (t := _time_of(finding)) is not None}
     times: Floats = np.unique([*np.linspace(0.0, 1.0, STEPS + 1), *about.values()])
     placed = _rigid(scene, times) if scene.joint_path is None else _of_joints(scene, times)
-    bodies = {body.id: _matrix(body) for body in scene.bodies}
+    bodies = {body.id: matrix_of(body) for body in scene.bodies}
     placed = {id_: own for id_, own in placed.items() if not (own == bodies[id_]).all()}
     names = [f"t = {time:.3g}" for time in times]
     first = [own[0] for own in placed.values()]
@@ -87,7 +83,7 @@ def _rigid(scene: Scene, times: Floats) -> dict[str, Floats]:
     for motion in scene.motions:
         track = track_of(motion.path)
         moves = np.array([track.pose_at(time) for time in times.tolist()]).reshape(-1, 4, 4)
-        placed |= {id_: moves @ _matrix(bodies[id_]) for id_ in motion.bodies if id_ in bodies}
+        placed |= {id_: moves @ matrix_of(bodies[id_]) for id_ in motion.bodies if id_ in bodies}
     return placed
 
 
@@ -102,5 +98,20 @@ def _of_joints(scene: Scene, times: Floats) -> dict[str, Floats]:
     return {body.id: whole[:, number] for number, body in enumerate(scene.bodies)}
 
 
-def _matrix(body: Body) -> Floats:
+def matrix_of(body: Body) -> Floats:
+    """Its placement, 4 x 4."""
     return np.array(body.transform or IDENTITY).reshape(4, 4)
+
+
+def boxes_of(bodies: Iterable[Body]) -> Floats:
+    """Least and greatest corner of each in the world, (n, 2, 3)."""
+    return np.array([body.world_mesh().bounds for body in bodies]).reshape(-1, 2, 3)
+
+
+def sphere_around(bodies: Iterable[Body]) -> tuple[Floats, float]:
+    """Of the boxes of bodies: centre and radius."""
+    boxes = boxes_of(bodies)
+    if not len(boxes):
+        return np.zeros(3), 1.0
+    low, high = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
+    return (low + high) / 2, float(np.linalg.norm(high - low)) / 2

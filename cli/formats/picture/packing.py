@@ -33,9 +33,9 @@ def packed_text(text: str) -> str:
     return packed(np.frombuffer(text.encode(), np.uint8))
 
 
-def packed_points(points: Array, boxes: Array) -> str:
-    """(n, 3) points, each within its box (n, 2, 3): as uint16, in columns, as differences."""
-    low, size = boxes[:, 0], boxes[:, 1] - boxes[:, 0]
+def packed_points(points: Array, box: Array) -> str:
+    """(n, 3) points within a box, (2, 3): as uint16, in columns, as differences."""
+    low, size = box[0], box[1] - box[0]
     steps = np.rint((points - low) / np.where(size > 0.0, size, 1.0) * STEPS).astype(np.uint16)
     return packed(differences(steps.T.reshape(-1)))
 
@@ -47,10 +47,8 @@ def differences(values: Array) -> Array:
 
 def packed_mesh(mesh: Mesh) -> dict[str, str]:
     """corners: within the box of the mesh. triangles: uint32, as differences."""
-    low, high = np.array(mesh.bounds)
-    boxes = np.broadcast_to([low, high], (mesh.vertex_count, 2, 3))
     return {
-        "corners": packed_points(np.asarray(mesh.vertices), boxes),
+        "corners": packed_points(np.asarray(mesh.vertices), np.array(mesh.bounds)),
         "triangles": packed(differences(np.asarray(mesh.triangles).reshape(-1))),
     }
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
-from satcheck.cli.formats.picture.data import listed
-from satcheck.cli.progress import Bar
+from satcheck.cli.formats.picture import listed
+from satcheck.cli.progress import counting
 from satcheck.decompose import Cache, DecompositionError, decompose, user_cache
 
 if TYPE_CHECKING:
@@ -22,12 +22,7 @@ def parts_of(report: Report, scene: Scene) -> Parts:
     met = {id_ for finding in listed(report) for id_ in (finding.a, finding.b)}
     bodies = [body for body in scene.bodies if body.id in met]
     once = cache(partial(_parts, settings=report.settings, store=user_cache()))
-    split: dict[str, tuple[Polytope, ...]] = {}
-    with Bar("bodies", "splitting") as bar:
-        for number, body in enumerate(bodies, 1):
-            split[body.id] = once(body.file.mesh)
-            if bar is not None:
-                bar(number, len(bodies))
+    split = {body.id: once(body.file.mesh) for body in counting(bodies, "bodies", "splitting")}
     return {id_: parts for id_, parts in split.items() if parts}
 
 

@@ -43,14 +43,11 @@ class Picture {
     this.meshes = meshes.map((mesh) => renderer.mesh(mesh));
     [this.frames, this.boxes] = await Promise.all(
       [bodies.frames, bodies.boxes].map((text) => unpacked(text, Float32Array)));
-    this.points = await unpackedPoints(report.points);
+    for (const each of report.findings.filter(isDrawn)) each.points = await unpackedPoints(each.points);
     this.parts = report.parts;
     this.moved = {};
     for (const [body, text] of Object.entries(report.moved)) this.moved[body] = await unpacked(text, Float32Array);
-    [this.sphere, this.rod, this.cone, this.cube] = [SPHERE, ROD, CONE, CUBE].map((m) => renderer.mesh(m));
-    this.firstPoints = [0];
-    for (const each of report.findings)
-      this.firstPoints.push(this.firstPoints.at(-1) + each.lines.reduce((a, b) => a + b, 0));
+    for (const [name, mesh] of Object.entries(report.solids)) this[name] = renderer.mesh(await unpackedMesh(mesh));
     this.tints = bodies.ids.map(() => OTHER);
     for (const each of report.findings)
       for (const body of [each.a, each.b]) if (body !== null) this.tints[body] = shade(body);
@@ -144,9 +141,9 @@ class Picture {
     this.strips = [];
     this.stand(isDrawn(now) ? now.moment : this.moment, now);
     if (!isDrawn(now)) return;
-    let first = this.firstPoints[number];
+    let first = 0;
     now.lines.forEach((count, k) => {
-      const points = this.points.slice(3 * first, 3 * (first += count)), isRim = k >= now.lines.length - now.rims;
+      const points = now.points.slice(3 * first, 3 * (first += count)), isRim = k >= now.lines.length - now.rims;
       const rows = boxRows(now.box[0], minus(now.box[1], now.box[0]));
       this.strip(points, isRim ? RIM : RED, renderer.gl.LINE_STRIP, isRim ? "thick" : "line", rows);
     });
@@ -221,8 +218,8 @@ class Picture {
   }
 
   rodFrom(from, to, radius, colour, mesh = this.rod) {
-    const along = minus(to, from), x = across(along), y = cross(unit(along), x);
-    const rows = rowsOf(times(x, radius), times(y, radius), along, from);
+    const along = minus(to, from), x = times(across(along), radius), y = cross(unit(along), x);
+    const rows = rowsOf(times(x, 2), times(y, 2), along, minus(from, plus(x, y)));
     this.renderer.draw(this.renderer.placed(mesh, rows), [...colour, 1]);
   }
 
@@ -251,11 +248,11 @@ class Picture {
 
   // The shadow of a body as drawn: least and greatest value along the axis.
   shadow(shape, axis) {
-    const { corners, rows } = shape, scale = corners instanceof Uint16Array ? 1 / STEPS : 1;
+    const { corners, rows } = shape;
     const [x, y, z, w] = [0, 1, 2, 3].map((k) => dot(axis, [rows[k], rows[4 + k], rows[8 + k]]));
     let low = Infinity, high = -Infinity;
     for (let k = 0; k < corners.length; k += 3) {
-      const at = scale * (x * corners[k] + y * corners[k + 1] + z * corners[k + 2]) + w;
+      const at = (x * corners[k] + y * corners[k + 1] + z * corners[k + 2]) / STEPS + w;
       low = Math.min(low, at);
       high = Math.max(high, at);
     }

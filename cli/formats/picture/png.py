@@ -16,16 +16,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from satcheck.audit.words import is_hit, short_names
+from satcheck.cli.formats.picture import drawn_finding, headline, require_drawable, up_of
 from satcheck.cli.formats.picture.body_answers import arrows_of, states_of, without_regions
-from satcheck.cli.formats.picture.data import (
-    drawn_finding,
-    headline,
-    require_drawable,
-    up_of,
-)
 from satcheck.cli.formats.picture.lettering import width_of, write
-from satcheck.cli.formats.picture.marks import arrow, ball_of, dot, rod, sphere_around
-from satcheck.cli.formats.picture.moments import moments_of
+from satcheck.cli.formats.picture.marks import arrow, ball_of, dot, rod
+from satcheck.cli.formats.picture.moments import moments_of, sphere_around
 from satcheck.cli.formats.picture.raster import INNER, MARKS, Kind, Triangles, drawn
 from satcheck.cli.formats.picture.shown import Shows, placed_point
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, of_all
@@ -116,8 +111,10 @@ def render(
     shows = Shows(report, scene, moments, up)
     shown = shows.of(finding)
     bodies = shows.scene_at(shown.moment).bodies
-    aside = _beside(bodies, shown, up, room) if _is_close(bodies, shown) else None
-    if aside is not None:
+    aside = None
+    if sphere_around(bodies)[1] > _CLOSE * shown.view.radius:
+        # A picture of the pair does not tell where in the scene it is.
+        aside = _beside(bodies, shown, up, room)
         room = room[0] - aside.shape[1], room[1]
     view = view_of(shown.view, shown.pair, up, room, shown.marks.points())
     image = image_of(bodies, shown, view, room)
@@ -130,18 +127,13 @@ def render(
     return image_file(_captioned(image, [[(A, a), (B, b)], [(None, words)]], size))
 
 
-def _is_close(bodies: Sequence[Body], shown: Shown) -> bool:
-    """Return whether a picture of the pair does not tell where in the scene it is."""
-    return sphere_around(list(bodies))[1] > _CLOSE * shown.view.radius
-
-
 def _beside(bodies: Sequence[Body], shown: Shown, up: str, size: tuple[int, int]) -> Pixels:
     """Return all bodies from the same side, for a strip of an image of this size: the pair solid,
     the others faint, and a ring around what the view shows."""
     kinds = [kind._replace(alpha=1.0) for kind in KINDS]
     kinds[OTHER] = kinds[OTHER]._replace(alpha=_ASIDE)
     numbers = {shown.finding.a: A, shown.finding.b: B}
-    centre, radius = sphere_around(list(bodies))
+    centre, radius = sphere_around(bodies)
     seen, strip = shown.view._replace(target=centre, radius=radius), round(_STRIP * size[0])
     turn = np.linspace(0.0, 2.0 * np.pi, _RING)
     right, above, _ = seen.rows(up)
@@ -315,7 +307,7 @@ def _meshes(bodies: Iterable[Body], shown: Shown) -> Iterator[tuple[Mesh, int]]:
 def _answers(report: Report, scene: Scene) -> Iterator[tuple[Mesh, int]]:
     """All bodies, those that fail in red, contact forces, and how bodies that fall start to
     move."""
-    radius = sphere_around(list(scene.bodies))[1]
+    radius = sphere_around(scene.bodies)[1]
     states = states_of(report)
     for body in scene.bodies:
         yield body.world_mesh(), FAILS if states.get(body.id) == "error" else ALONE

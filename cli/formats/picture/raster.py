@@ -165,7 +165,8 @@ def _see(
     if overlap is not None:
         entered = _enters_overlap(fragments, kind, starts, group)
         colours[entered] = np.array(overlap.colour) * shade[entered, None]
-        faint = np.array([k.layer == BODIES for k in kinds])[kind] & _any(entered, starts)[group]
+        met = np.add.reduceat(entered.astype(np.int64), starts) > 0  # of each ray
+        faint = np.array([k.layer == BODIES for k in kinds])[kind] & met[group]
         alpha = np.where(entered, overlap.alpha, np.where(faint, _BESIDE_OVERLAP * alpha, alpha))
     passing = np.log(np.maximum(1.0 - alpha, _THROUGH_OPAQUE))
     after = _running(passing, starts, group)
@@ -194,11 +195,6 @@ def _enters_overlap(
         whole &= np.add.reduceat(steps, starts) == 0
     entered: npt.NDArray[np.bool_] = within & ~was_within & whole[group]
     return entered
-
-
-def _any(values: npt.NDArray[np.bool_], starts: Integers) -> npt.NDArray[np.bool_]:
-    """For each ray."""
-    return np.add.reduceat(values.astype(np.int64), starts) > 0
 
 
 def _running(values: Floats | Integers, starts: Integers, group: Integers) -> Floats:

@@ -18,10 +18,10 @@ from satcheck.audit.words import (
     short_names,
     with_unit,
 )
-from satcheck.cli.formats.picture.marks import deciding_rim, dot, sphere_around
+from satcheck.cli.formats.picture.marks import deciding_rim, dot
+from satcheck.cli.formats.picture.moments import boxes_of, matrix_of, sphere_around
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, Viewpoints
 from satcheck.report.report import OVERLAPS
-from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -177,8 +177,7 @@ class Shows:
             return first
         spot = core.Surface(dot(near, 1e-3 * sphere_around([body])[1]), True)
         point = np.append(core.mesh_distance(spot, self._surface(body)).witness_b, 1.0)
-        matrix = np.array(body.transform or IDENTITY).reshape(4, 4)
-        placed: Floats = np.linalg.solve(matrix, point)[:3]
+        placed: Floats = np.linalg.solve(matrix_of(body), point)[:3]
         return placed
 
     def _figures(self, finding: Finding, marks: Marks, towards: Floats) -> list[Label]:
@@ -210,33 +209,24 @@ class Shows:
 
 
 def marks_of(finding: Finding, pair: list[Body]) -> Marks:
-    """Those that the finding states."""
-    return Marks(_way(finding, pair), _gap(finding), _hit(finding))
+    """Those that the finding states. The way out starts where the bodies overlap."""
+    way, gap, hit = None, None, None
+    witness, is_apart = finding.witness, finding.at_rest not in OVERLAPS
+    if finding.mtv is not None and any(finding.mtv):
+        start = _shared(pair) if witness is None else np.array(witness.a)
+        start = start if finding.ball is None else np.array(finding.ball.centre)
+        way = start, np.array(finding.mtv)
+    if is_apart and finding.distance and witness is not None:
+        gap = np.array(witness.a), np.array(witness.b)
+    if is_apart and is_hit(finding) and finding.motion is not None:
+        hit = None if finding.motion.point is None else np.array(finding.motion.point)
+    return Marks(way, gap, hit)
 
 
 def placed_point(body: Body, point: Floats) -> Floats:
     """A point of its mesh in the world."""
-    matrix = np.array(body.transform or IDENTITY).reshape(4, 4)
-    placed: Floats = matrix[:3, :3] @ point + matrix[:3, 3]
+    placed: Floats = (matrix_of(body) @ np.append(point, 1.0))[:3]
     return placed
-
-
-def _way(finding: Finding, pair: list[Body]) -> tuple[Floats, Floats] | None:
-    """From where the bodies overlap along the way out."""
-    if finding.mtv is None or not any(finding.mtv):
-        return None
-    start = _shared(pair)
-    if finding.ball is not None:
-        start = np.array(finding.ball.centre)
-    elif finding.witness is not None:
-        start = np.array(finding.witness.a)
-    return start, np.array(finding.mtv)
-
-
-def _gap(finding: Finding) -> tuple[Floats, Floats] | None:
-    if finding.at_rest in OVERLAPS or not finding.distance or finding.witness is None:
-        return None
-    return np.array(finding.witness.a), np.array(finding.witness.b)
 
 
 def _meeting_lines(a: core.Surface, b: core.Surface) -> list[Floats]:
@@ -246,12 +236,6 @@ def _meeting_lines(a: core.Surface, b: core.Surface) -> list[Floats]:
     curves = [[*curve.points, *curve.points[: curve.closed]] for curve in contacts.curves]
     outlines = (outline for patch in contacts.patches for outline in patch.outlines)
     return [np.array(line) for line in (*curves, *([*line, line[0]] for line in outlines))]
-
-
-def _hit(finding: Finding) -> Floats | None:
-    if finding.at_rest in OVERLAPS or not is_hit(finding) or finding.motion is None:
-        return None
-    return None if finding.motion.point is None else np.array(finding.motion.point)
 
 
 def _place(finding: Finding, pair: list[Body], marks: Marks) -> Floats:
@@ -270,6 +254,6 @@ def _place(finding: Finding, pair: list[Body], marks: Marks) -> Floats:
 
 def _shared(pair: list[Body]) -> Floats:
     """The middle of what the boxes of the bodies share, or of what is between them."""
-    boxes = np.array([body.world_mesh().bounds for body in pair])
+    boxes = boxes_of(pair)
     middle: Floats = (boxes[:, 0].max(axis=0) + boxes[:, 1].min(axis=0)) / 2
     return middle

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec.structs import replace
 
+from satcheck.cli.formats.picture.moments import boxes_of, matrix_of
 from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box
-from satcheck.scene.bodies import IDENTITY, is_half_space
+from satcheck.scene.bodies import is_half_space
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -32,7 +33,7 @@ def with_slabs(scene: Scene) -> Scene:
     others = [body for body in scene.bodies if not is_half_space(body)]
     if len(others) == len(scene.bodies):
         return scene
-    boxes = np.array([body.world_mesh().bounds for body in others]).reshape(-1, 2, 3)
+    boxes = boxes_of(others)
     bodies = (_slab(body, boxes) if is_half_space(body) else body for body in scene.bodies)
     return replace(scene, bodies=tuple(bodies))
 
@@ -56,6 +57,6 @@ def _around(floor: Body, boxes: Floats) -> tuple[Floats, Floats]:
     corners = np.array(
         [[box[i, 0], box[j, 1], box[k, 2]] for box in boxes for i, j, k in np.ndindex(2, 2, 2)]
     )
-    matrix = np.array(floor.transform or IDENTITY).reshape(4, 4)
+    matrix = matrix_of(floor)
     inner = np.linalg.solve(matrix[:3, :3], (corners - matrix[:3, 3]).T).T
     return inner.min(axis=0), inner.max(axis=0)

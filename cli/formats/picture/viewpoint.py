@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from satcheck.cli.formats.picture.marks import sphere_around
+from satcheck.cli.formats.picture.moments import boxes_of, sphere_around
 from satcheck.cli.formats.picture.packing import simplified
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def directions(up: str) -> Floats:
 
 
 def of_all(bodies: Sequence[Body], up: str) -> Viewpoint:
-    target, radius = sphere_around(list(bodies))
+    target, radius = sphere_around(bodies)
     return Viewpoint(target, radius, directions(up)[0])
 
 
@@ -123,7 +123,7 @@ class Viewpoints:
         radius: float,
     ) -> tuple[int, float]:
         """The number of the best direction, and how far the last surface of the pair is on it."""
-        boxes = np.array([body.world_mesh().bounds for body in others]).reshape(-1, 2, 3)
+        boxes = boxes_of(others)
         found: list[tuple[float, int, float]] = []
         for number in order[np.isfinite(costs[order])].tolist():
             rows = Viewpoint(place, radius, self._directions[number]).rows(self._up)
@@ -154,7 +154,7 @@ def _coarser(mesh: Mesh) -> Mesh:
 def _around(pair: Sequence[Body], points: Sequence[Floats]) -> tuple[Floats, float]:
     """Centre and radius of what is to be seen. Beside a large body the small one says where to
     look."""
-    target, radius = sphere_around(list(pair))
+    target, radius = sphere_around(pair)
     least, size = min((sphere_around([body]) for body in pair), key=lambda each: each[1])
     if 4.0 * size < radius:
         target, radius = least, 2.0 * size

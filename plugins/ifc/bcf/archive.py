@@ -21,7 +21,7 @@ from xsdata.formats.dataclass.serializers import XmlSerializer
 from xsdata.formats.dataclass.serializers.writers import XmlEventWriter
 from xsdata.models.datatype import XmlDateTime
 
-from satcheck.cli.formats.picture.data import require_drawable, up_of
+from satcheck.cli.formats.picture import require_drawable, up_of
 from satcheck.cli.formats.picture.moments import Moments
 from satcheck.cli.formats.picture.png import View, image_file, image_of, image_of_bodies, view_of
 from satcheck.cli.formats.picture.shown import Shows
