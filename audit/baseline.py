@@ -37,9 +37,8 @@ from satcheck.report.judge import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Issue, Report
 from satcheck.report.values import Interval, Relation
 from satcheck.report.verdict import fails, summarise
-from satcheck.scene.files_read import FilesRead, Signature, files_read, note, signature
+from satcheck.scene.access import FilesRead, Signature, files_read, followed, note, signature
 from satcheck.scene.opening import exists, read_whole
-from satcheck.scene.permitted import followed
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 

@@ -220,7 +220,10 @@ def book_of(
     check_static: bool = True,
 ) -> RuleBook:
     """Return the rules of a scene, compiled for these bodies."""
-    members = Members(bodies)
+    selected = []
+    if rules:
+        members = Members(bodies)
+        selected = [(members.of(rule.a.text), members.of(rule.b.text)) for rule in rules]
     return RuleBook(
         bodies,
         [
@@ -231,7 +234,7 @@ def book_of(
             )
             for rule in rules
         ],
-        [(members.of(rule.a.text), members.of(rule.b.text)) for rule in rules],
+        selected,
         ignored_groups,
         check_static,
     )

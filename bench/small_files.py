@@ -30,7 +30,7 @@ from sample_meshes.make import rod
 from satcheck import core
 from satcheck._native import readers
 from satcheck.scene import load_scene
-from satcheck.scene.files_read import signature
+from satcheck.scene.access import signature
 
 SCENE = "scene.toml"
 FORMATS = ("obj", "stl", "ply", "off", "glb")

@@ -19,11 +19,11 @@ from satcheck.cli.progress import Bar
 from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, Selector
+from satcheck.scene.access import Permitted
 from satcheck.scene.files.readers import ReadLimits, ReadOptions, kind_of
 from satcheck.scene.loader import LoadOptions, is_mesh, is_rules
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.opening import exists, is_folder
-from satcheck.scene.permitted import Permitted
 
 # Issues about what has no body.
 _OF_NO_BODY = frozenset(

@@ -14,13 +14,13 @@ from satcheck.report.report import Issue, Report
 from satcheck.report.samples import SampledBody, SamplesReport
 from satcheck.report.sweep import JointPath
 from satcheck.scene import Body, MeshFiles, Refused, Scene
+from satcheck.scene.access import Permitted
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.document import FilePart
 from satcheck.scene.files.nodes import CORNER
 from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
 from satcheck.scene.opening import read_whole
-from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.outline import shape_from
 
 if TYPE_CHECKING:

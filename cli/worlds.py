@@ -36,10 +36,10 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import Issue
 from satcheck.report.settings import StatedConfig
+from satcheck.scene.access import Permitted
 from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import LoadOptions, has_only_rules, read_rules
 from satcheck.scene.opening import STANDARD_INPUT
-from satcheck.scene.permitted import Permitted
 from satcheck.scene.words import listed
 
 if TYPE_CHECKING:

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.access import NOTHING_ELSE, Permitted
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import SCENE_SUFFIXES, mesh_reader, reader_of_robot, robots_of
 from satcheck.scene.foreign_formats import is_foreign
 from satcheck.scene.opening import exists, is_folder, read_whole
-from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 
 # Most JSON and TOML is something else, unless it holds one of these texts, which begin the names of
 # schemas of any version.

@@ -14,9 +14,9 @@ from typing import NamedTuple
 from urllib.parse import quote
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.access import Permitted, followed
 from satcheck.scene.asset_files import content_of
 from satcheck.scene.files.readers import SCENE_SUFFIXES, reader_of, robot_endings
-from satcheck.scene.permitted import Permitted, followed
 
 # Files of these endings name no other file with geometry.
 _ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off"))

@@ -191,6 +191,14 @@ class Document(Struct, frozen=True, tag=True):
         """Return whether joints may move its links: it is a robot, or like one."""
         return self.robot is not None or any(joint.kind != "fixed" for joint in self.joints)
 
+    @property
+    def only_mesh(self) -> RawMesh | None:
+        """Return the mesh of a document that holds nothing else, and places it nowhere."""
+        first, *others = self.items
+        mesh = self.parts[first.number].mesh
+        is_alone = first.transform is None and not (others or self.warnings)
+        return mesh if isinstance(mesh, RawMesh) and is_alone else None
+
     def check(self) -> None:
         """Refuse what no reader may return, as a reader of another package may. Raises Refused.
         Coordinates and corners are checked where meshes are inspected."""

@@ -25,6 +25,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.access import DEFAULT_MEGABYTES_PER_FILE, NOTHING_ELSE, Permitted
 from satcheck.scene.bodies import Scene
 from satcheck.scene.building import SceneBuilder
 from satcheck.scene.document import Document, Item, Kind, plain_ids
@@ -44,7 +45,6 @@ from satcheck.scene.files.readers import (
 from satcheck.scene.issue import UNUSED_OPTION, issue
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.opening import DEFAULT_SECONDS_PER_FILE, name_of, read_whole
-from satcheck.scene.permitted import DEFAULT_MEGABYTES_PER_FILE, NOTHING_ELSE, Permitted
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import MICROMETRES, unit_of
 

@@ -18,10 +18,11 @@ from msgspec.structs import replace
 
 from satcheck.core.plugins import function_at
 from satcheck.core.steps import LeftOut, is_careful, risky_step
+from satcheck.scene.access import FilesRead, StrPath, files_read, note, note_lost_reader
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.document import COMPONENT_MARK, HULL_MARK, Document, FilePart, Item
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.nodes import Split, document_of
+from satcheck.scene.files.nodes import Split, flattened, inspected
 from satcheck.scene.files.readers import (
     GEOMETRY,
     File,
@@ -33,11 +34,9 @@ from satcheck.scene.files.readers import (
     required_reader,
 )
 from satcheck.scene.files.reading_children import ReadingChildren, read_in_child
-from satcheck.scene.files_read import FilesRead, files_read, note, note_lost_reader
-from satcheck.scene.inspect import ErrorsOf, remeshed, shape_file
+from satcheck.scene.inspect import ErrorsOf, mesh_file, remeshed, shape_file
 from satcheck.scene.issue import Issue
-from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, suffix_of
-from satcheck.scene.permitted import StrPath
+from satcheck.scene.opening import LARGE_FILE_BYTES, name_of, open_file, suffix_of
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
@@ -45,6 +44,18 @@ if TYPE_CHECKING:
 
 # Files that are remembered by name: so many scenes may lie between two that share one.
 _MOST_SEEN = 100_000
+
+
+def _bodies_of(file: File, read: Document, split: Split, kind: str) -> Document:
+    """Return the bodies of a file, with each distinct mesh inspected once. read: by its reader,
+    which is of this kind. Raises Refused if nothing can be used."""
+    if split == "none":
+        mesh = mesh_file(file, read.only_mesh or flattened(read))
+        made = Document(items=(Item(mesh),), units=mesh.units)
+    else:
+        made = inspected(file, read, apart=split == "components")
+    name = name_of(file.path)[0] or file.path
+    return replace(made, path=file.path, name=name, kind="scene" if kind == "document" else "mesh")
 
 
 class MeshFiles:
@@ -101,7 +112,7 @@ class MeshFiles:
         with _reading(path, location), ErrorsOf(path):
             whole = split == "none"
             reader, file = open_file(path, location, required_reader, self.allowed, whole=whole)
-            return document_of(file, self._read(reader, file, Document), split, reader.kind)
+            return _bodies_of(file, self._read(reader, file, Document), split, reader.kind)
 
     def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
         """In this process, or in the child process, as its reader says. kind: of its documents."""

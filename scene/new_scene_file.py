@@ -14,13 +14,13 @@ from msgspec import to_builtins
 
 from satcheck.core.shapes import HalfSpace
 from satcheck.core.transform import Transform
+from satcheck.scene.access import followed
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
 from satcheck.scene.document import FilePart
 from satcheck.scene.files.readers import mesh_reader, options_of
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.motion import Motion, PosePath, Rotation, Waypoint
 from satcheck.scene.opening import is_file
-from satcheck.scene.permitted import followed
 from satcheck.scene.rules import PLACE, Rule, Selector
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1

@@ -22,9 +22,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 
 from satcheck._native.readers import read_file
-from satcheck.scene.errors import Refused
-from satcheck.scene.files_read import note, note_bytes, note_digest
-from satcheck.scene.permitted import (
+from satcheck.scene.access import (
     NOTHING_ELSE,
     OWN_FILE,
     Context,
@@ -32,7 +30,11 @@ from satcheck.scene.permitted import (
     Permitted,
     StrPath,
     no_file,
+    note,
+    note_bytes,
+    note_digest,
 )
+from satcheck.scene.errors import Refused
 
 if TYPE_CHECKING:
     from satcheck.scene.files.readers import Reader, ReadOptions

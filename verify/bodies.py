@@ -17,12 +17,12 @@ from satcheck.core.shapes import HalfSpace, Primitive, image_of, is_curved
 from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshHealth, Refused, Scene
+from satcheck.scene.access import Permitted
 from satcheck.scene.document import FilePart
 from satcheck.scene.files.readers import ReadLimits, ReadOptions
 from satcheck.scene.half_spaces import holds
 from satcheck.scene.inspect import shape_file
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.permitted import Permitted
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.verify.curved import Curved

@@ -18,8 +18,7 @@ from satcheck.audit.batch import remote
 from satcheck.audit.batch.options import CheckOptions, Limits, World
 from satcheck.core.plugins import versions
 from satcheck.report.assets import InputFile
-from satcheck.scene.files_read import FilesRead, Signature
-from satcheck.scene.permitted import Permitted, search_path
+from satcheck.scene.access import FilesRead, Permitted, Signature, search_path
 
 _MOST_DIGESTS = 5_000
 _BLOCK_BYTES = 1 << 18

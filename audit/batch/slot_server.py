@@ -26,7 +26,7 @@ from satcheck.core.steps import Care, Loss, careful, end_at_memory_error
 from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result
 from satcheck.report.json import line_of, read_line
 from satcheck.report.report import Issue
-from satcheck.scene.files_read import FilesRead, files_read, note
+from satcheck.scene.access import FilesRead, files_read, note
 from satcheck.scene.mesh_files import KnownMeshes
 
 # A line on standard error names the risky step that begins, in hexadecimal digits, as the name may

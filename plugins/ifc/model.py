@@ -13,10 +13,10 @@ from msgspec import Struct
 
 from satcheck.plugins.ifc.elements import declared, instances_of
 from satcheck.plugins.ifc.kernel import Message, logged, start_log
+from satcheck.scene.access import Most
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import imported
 from satcheck.scene.files.zip_guard import opened_zip, read_part
-from satcheck.scene.permitted import Most
 
 _ZIP = b"PK\x03\x04"
 _FIRST = b"ISO-10303-21"

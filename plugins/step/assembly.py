@@ -17,6 +17,7 @@ from msgspec.structs import replace
 
 from satcheck.core.transform import Transform
 from satcheck.plugins.step.exchange import Exchange, read_exchange
+from satcheck.scene.access import NOTHING_ELSE, Context
 from satcheck.scene.document import Document, RawMesh, Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.gltf import GltfScene
@@ -25,7 +26,6 @@ from satcheck.scene.files.gltf_document import NONE, Count, GltfDocument, Primit
 from satcheck.scene.files.gltf_meshes import NO_TRIANGLES, Shape
 from satcheck.scene.files.placing import Instance, raw_scene, tidy_name
 from satcheck.scene.files.readers import File, imported
-from satcheck.scene.permitted import NOTHING_ELSE, Context
 from satcheck.scene.words import listed
 
 _MILLIMETRES = 1000.0  # in the metre of glTF

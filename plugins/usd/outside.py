@@ -14,9 +14,9 @@ from typing import Any
 
 from pxr import Ar, Sdf, Tf
 
+from satcheck.scene.access import Context
 from satcheck.scene.errors import Refused
 from satcheck.scene.opening import exists, is_folder, size_of
-from satcheck.scene.permitted import Context
 
 
 class Closed:

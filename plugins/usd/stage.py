@@ -13,9 +13,9 @@ from pxr import Sdf, Usd, UsdGeom
 from satcheck.core.transform import Transform
 from satcheck.plugins.usd.names import LOOKS
 from satcheck.plugins.usd.outside import Closed, clips_of, file_of
+from satcheck.scene.access import note
 from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files_read import note
 from satcheck.scene.opening import File
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed

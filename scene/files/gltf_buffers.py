@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from satcheck._native import readers
 from satcheck._native.readers import read_file
+from satcheck.scene.access import Context
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.gltf_document import (
@@ -30,7 +31,6 @@ from satcheck.scene.files.gltf_document import (
     SparseValues,
 )
 from satcheck.scene.files.readers import NeedsChild
-from satcheck.scene.permitted import Context
 
 _GLB_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
 _CHUNK_HEADER = struct.Struct("<II")  # length, type

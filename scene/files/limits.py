@@ -1,4 +1,4 @@
-"""Limits of what a file makes. Each guards against small files that become huge. `permitted.py`
+"""Limits of what a file makes. Each guards against small files that become huge. `access.py`
 has those of sizes."""
 
 from __future__ import annotations

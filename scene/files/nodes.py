@@ -1,5 +1,5 @@
-"""Makes the bodies of a file that is read: one of all of it, for which its meshes are joined, one
-for each node, or one for each connected component of these."""
+"""Makes the bodies of a file that is read: one of all its meshes, joined, one for each node, or one
+for each connected component of these."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ from satcheck.scene.document import (
     NO_SURFACE,
     Block,
     Document,
-    Item,
     RawMesh,
     RawPart,
     Refusal,
@@ -29,7 +28,6 @@ from satcheck.scene.files import limits
 from satcheck.scene.files.readers import File
 from satcheck.scene.inspect import CRACK_WIDTH, ErrorsOf, file_resolution, mesh_file
 from satcheck.scene.issue import BLOCKING, issue
-from satcheck.scene.opening import name_of
 
 # "none": the whole file is one body.
 Split = Literal["nodes", "components", "none"]
@@ -43,25 +41,13 @@ _SHAPES = "it has exact shapes, which no mesh holds: name one part of the file"
 _SPLIT = "check its nodes as bodies of their own (--split nodes), or split the file"
 
 
-def document_of(file: File, read: Document, split: Split, kind: str) -> Document:
-    """Return the bodies of a file, with each distinct mesh inspected once. read: by its reader,
-    which is of this kind.
+def inspected(file: File, read: Document, *, apart: bool) -> Document:
+    """Return the document with its meshes in the items. apart: an item for each component of these.
 
     Components are edge-connected, after cracks are closed. They are numbered by their lowest
     corners, so that the order of the triangles in the file does not matter. Raises Refused if
     nothing can be used.
     """
-    if split == "none":
-        mesh = mesh_file(file, flattened(read))
-        made = Document(items=(Item(mesh),), units=mesh.units)
-    else:
-        made = _inspected(file, read, apart=split == "components")
-    name = name_of(file.path)[0] or file.path
-    return replace(made, path=file.path, name=name, kind="scene" if kind == "document" else "mesh")
-
-
-def _inspected(file: File, read: Document, *, apart: bool) -> Document:
-    """The document with its meshes in the items. apart: an item for each component of a mesh."""
     said = list(read.warnings)
     shapes = [_shapes_of(file, part, said, apart=apart) for part in read.parts]
     limits.refuse_many(sum(len(shapes[item.number]) for item in read.items), "bodies")
@@ -159,9 +145,7 @@ def flattened(document: Document) -> RawMesh:
     A mesh of lines or points only adds a warning. Raises Refused if another mesh cannot be
     used, or if all together exceed the triangle limit.
     """
-    first, *others = document.items
-    only = document.parts[first.number].mesh
-    if isinstance(only, RawMesh) and first.transform is None and not (others or document.warnings):
+    if (only := document.only_mesh) is not None:
         return only
     said = list(document.warnings)
     placed: list[tuple[RawMesh, Transform | None]] = []

@@ -23,13 +23,13 @@ from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.plugins import failures, others, own
+from satcheck.scene.access import StrPath
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.opening import File as File
 from satcheck.scene.opening import ReadLimits as ReadLimits
 from satcheck.scene.opening import size_of, suffix_of
-from satcheck.scene.permitted import StrPath
 from satcheck.scene.words import meant
 
 T = TypeVar("T")

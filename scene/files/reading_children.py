@@ -25,12 +25,11 @@ from satcheck.core.worker_errors import (
     WorkerOutOfMemory,
     WorkerTimeout,
 )
+from satcheck.scene.access import DEFAULT_MEGABYTES_PER_FILE, files_read, note, note_lost_reader
 from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import File, ReadLimits
-from satcheck.scene.files_read import files_read, note, note_lost_reader
 from satcheck.scene.issue import CODES
-from satcheck.scene.permitted import DEFAULT_MEGABYTES_PER_FILE
 
 Content = TypeVar("Content")
 

@@ -15,6 +15,7 @@ from collections import Counter
 
 from msgspec.structs import replace
 
+from satcheck.scene.access import Most
 from satcheck.scene.document import Document
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import instances, raw_scene
@@ -24,7 +25,6 @@ from satcheck.scene.files.threemf_model import ENCODINGS, Model, Object, part_na
 from satcheck.scene.files.threemf_vocabulary import RELATIONSHIP, RELATIONSHIPS, TYPES
 from satcheck.scene.files.xml_tree import read_elements
 from satcheck.scene.files.zip_guard import opened_zip, read_part
-from satcheck.scene.permitted import Most
 from satcheck.scene.vocabulary import UnknownNames
 from satcheck.scene.words import listed
 

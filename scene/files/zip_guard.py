@@ -8,8 +8,8 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from satcheck.scene.access import Most
 from satcheck.scene.errors import Refused
-from satcheck.scene.permitted import Most
 
 
 @contextmanager

@@ -19,11 +19,7 @@ from urllib.parse import unquote
 
 from msgspec.structs import replace
 
-from satcheck.scene.errors import Refused
-from satcheck.scene.files.xml_tree import read_elements
-from satcheck.scene.files_read import note, note_folders_in
-from satcheck.scene.opening import is_file, is_folder, read_whole, size_of
-from satcheck.scene.permitted import (
+from satcheck.scene.access import (
     NOTHING_ELSE,
     Context,
     Most,
@@ -31,7 +27,12 @@ from satcheck.scene.permitted import (
     folders_of_environment,
     followed,
     no_file,
+    note,
+    note_folders_in,
 )
+from satcheck.scene.errors import Refused
+from satcheck.scene.files.xml_tree import read_elements
+from satcheck.scene.opening import is_file, is_folder, read_whole, size_of
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
 _SUBSTITUTION = re.compile(r"\$[({]")

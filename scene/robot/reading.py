@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from typing import NoReturn
 
+from satcheck.scene.access import Permitted, StrPath
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import Reader, reader_of_robot, robot_reader, robots
 from satcheck.scene.files.xml_tree import (
@@ -21,7 +22,6 @@ from satcheck.scene.files.xml_tree import (
     read_elements,
 )
 from satcheck.scene.opening import read_whole
-from satcheck.scene.permitted import Permitted, StrPath
 
 _ERB = b"<%"
 _EXPAND_ERB = "this is ERB, a macro language: expand it first (erb FILE.erb > FILE)"

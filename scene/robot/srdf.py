@@ -9,9 +9,9 @@ from pathlib import Path
 
 from msgspec import Struct
 
+from satcheck.scene.access import NOTHING_ELSE, Permitted
 from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.issue import Issue
-from satcheck.scene.permitted import NOTHING_ELSE, Permitted
 from satcheck.scene.robot.model import State, Values
 from satcheck.scene.robot.reading import read_tree
 from satcheck.scene.robot.slips import Place, Slips, attributes, elements

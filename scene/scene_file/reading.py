@@ -17,6 +17,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from satcheck.core.shapes import HalfSpace
+from satcheck.scene.access import NOTHING_ELSE, Context, Permitted
 from satcheck.scene.bodies import Entry
 from satcheck.scene.document import FilePart, Item
 from satcheck.scene.errors import Refused
@@ -24,7 +25,6 @@ from satcheck.scene.files.readers import mesh_endings, mesh_reader
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.motion import Motion
 from satcheck.scene.opening import suffix_of
-from satcheck.scene.permitted import NOTHING_ELSE, Context, Permitted
 from satcheck.scene.rules import Rule, RuleKeys
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1

@@ -14,10 +14,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from satcheck.scene.access import ANYWHERE
 from satcheck.scene.bodies import Entry
 from satcheck.scene.document import Item
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.scene_file.document import Matrix, affine
 from satcheck.scene.scene_file.form import converted

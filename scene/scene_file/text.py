@@ -18,10 +18,10 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.access import OWN_FILE, Most
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.limits import MAX_DEPTH
 from satcheck.scene.opening import read_whole
-from satcheck.scene.permitted import OWN_FILE, Most
 from satcheck.scene.table import Keys, Wrong
 from satcheck.scene.words import why_unreadable
 

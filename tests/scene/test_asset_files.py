@@ -9,9 +9,9 @@ import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import asset_files as module
+from satcheck.scene.access import Permitted
 from satcheck.scene.asset_files import asset_files
 from satcheck.scene.foreign_formats import is_foreign
-from satcheck.scene.permitted import Permitted
 from tests.cli.process import on_posix
 from tests.plugin_marks import needs
 

@@ -11,8 +11,8 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.access import NOTHING_ELSE
 from satcheck.scene.changed_assets import changed_since
-from satcheck.scene.permitted import NOTHING_ELSE
 from tests.cli.process import on_posix
 
 IDENTITY = ("-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "protocol.file.allow=always")

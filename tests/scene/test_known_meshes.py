@@ -11,8 +11,8 @@ import pytest
 
 from satcheck.core import worker
 from satcheck.scene import Scene, load_scene, mesh_files
+from satcheck.scene.access import files_read
 from satcheck.scene.files.reading_children import ReadingChildren
-from satcheck.scene.files_read import files_read
 from satcheck.scene.loader import LoadOptions
 from satcheck.scene.mesh_files import KnownMeshes
 from tests.cli.process import SAMPLES
@@ -22,7 +22,7 @@ from tests.scene import files
 @pytest.fixture(autouse=True)
 def _settled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Every file but those of `fresh` counts as old."""
-    monkeypatch.setattr("satcheck.scene.files_read._GRAIN_NS", -(10**12))
+    monkeypatch.setattr("satcheck.scene.access._GRAIN_NS", -(10**12))
     monkeypatch.chdir(tmp_path)
 
 
@@ -85,7 +85,7 @@ def test_a_file_that_changed_is_read_again(change: Callable[[], object]) -> None
 
 def test_a_fresh_file_is_read_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """It may change once more without another time of change."""
-    monkeypatch.setattr("satcheck.scene.files_read._GRAIN_NS", 10**15)
+    monkeypatch.setattr("satcheck.scene.access._GRAIN_NS", 10**15)
     known = known_of(1000, copied("box.obj"))
     before = load(known, "box.obj")
     assert mesh(load(known, "box.obj")) is not mesh(before)

@@ -9,11 +9,11 @@ import pytest
 
 from satcheck.core import worker
 from satcheck.scene import MeshFile, MeshFiles, Refused, load_scene, mesh_files
+from satcheck.scene.access import ANYWHERE
 from satcheck.scene.document import FilePart
 from satcheck.scene.files import limits
 from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.files.reading_children import ReadingChildren
-from satcheck.scene.permitted import ANYWHERE
 from tests.scene import files, graphs
 
 NODES = [{"name": "rim", "mesh": 0}, {"name": "tyre", "mesh": 0, "translation": [5, 0, 0]}]

@@ -11,10 +11,10 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.scene import Scene, load_scene
+from satcheck.scene.access import ANYWHERE
 from satcheck.scene.files.readers import ReadLimits
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.new_scene_file import left_out_of, new_scene_file
-from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.robot import posed
 from tests.audit.shapes import unit_box, write
 from tests.plugin_marks import skip_without

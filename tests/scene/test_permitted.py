@@ -11,7 +11,7 @@ import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Refused, Scene, load_scene
-from satcheck.scene.permitted import NOTHING_ELSE, Context, Permitted
+from satcheck.scene.access import NOTHING_ELSE, Context, Permitted
 from tests.plugin_marks import needs
 from tests.scene import files
 from tests.scene.hostile import needs_links

@@ -11,8 +11,8 @@ import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Refused, load_scene
+from satcheck.scene.access import NOTHING_ELSE, Context, Permitted
 from satcheck.scene.opening import read_whole
-from satcheck.scene.permitted import NOTHING_ELSE, Context, Permitted
 from satcheck.scene.robot import read_poses
 from tests.plugin_marks import needs
 from tests.scene import files

@@ -18,9 +18,9 @@ from msgspec import Struct
 from satcheck.audit.messages import kind_of, measured
 from satcheck.audit.words import counted, is_listed, worst_first
 from satcheck.plugins.ifc.model import unpacked
+from satcheck.scene.access import OWN_FILE
 from satcheck.scene.errors import Refused
 from satcheck.scene.opening import read_whole
-from satcheck.scene.permitted import OWN_FILE
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import Refused, load_scene
-from satcheck.scene.files_read import files_read
+from satcheck.scene.access import files_read
 from tests.plugins.sdf.files import (
     include,
     joint,

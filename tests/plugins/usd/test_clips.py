@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import Scene
-from satcheck.scene.files_read import files_read
+from satcheck.scene.access import files_read
 from tests.plugins.usd.files import cube, load, said, stage, unread
 
 _CLIP = """#usda 1.0

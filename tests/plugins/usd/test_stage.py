@@ -9,7 +9,7 @@ import pytest
 from pxr import Sdf, Usd, UsdUtils
 
 from satcheck.scene import load_scene
-from satcheck.scene.files_read import files_read
+from satcheck.scene.access import files_read
 from tests.cli.process import satcheck
 from tests.plugins.usd.files import at, bounds_of, cube, load, said, stage
 

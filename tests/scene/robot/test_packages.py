@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import Refused
-from satcheck.scene.permitted import ANYWHERE
+from satcheck.scene.access import ANYWHERE
 from satcheck.scene.robot import FilePlaces
 from tests.scene.hostile import needs_links
 

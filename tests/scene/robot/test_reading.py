@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene import Refused
-from satcheck.scene.permitted import NOTHING_ELSE
+from satcheck.scene.access import NOTHING_ELSE
 from satcheck.scene.robot.reading import read_tree
 from tests.scene.robot.robots import SAMPLES, refusal
 

@@ -9,9 +9,9 @@ import pytest
 
 from satcheck.core.shapes import Box, Capsule
 from satcheck.scene import Refused
+from satcheck.scene.access import ANYWHERE
 from satcheck.scene.document import FilePart
 from satcheck.scene.motion import PosePath, Rotation, Translation
-from satcheck.scene.permitted import ANYWHERE
 from satcheck.scene.rules import Rule, Selector
 from tests.scene import files
 from tests.scene.scene_file.scenes import BOX, errors, full, read, scene_of, write
