@@ -146,8 +146,7 @@ def _lacks_figures(relation: Relation, figures: Iterable[Figure]) -> bool:
 
 
 def absent_from(report: Report, baseline: Baseline, asset: str = "") -> list[KnownFinding]:
-    """Known findings of pairs that this report has checked, and that do not fail any more; and
-    those of bodies that the asset has no more."""
+    """Known findings of pairs that this report has checked, and that do not fail any more."""
     usable = {body.id for body in report.bodies if body.triangles is not None}
     still = {
         frozenset((finding.a, finding.b))
@@ -158,19 +157,10 @@ def absent_from(report: Report, baseline: Baseline, asset: str = "") -> list[Kno
         known
         for known in baseline.findings
         if known.asset == asset
-        and ({known.a, known.b} <= usable or _is_gone(known, report))
+        and {known.a, known.b} <= usable
         and known.key[1] not in still
         and _would_fail(known, report)
     ]
-
-
-def _is_gone(known: KnownFinding, report: Report) -> bool:
-    """Return whether the asset was read, and has a body of the finding no more. A finding without
-    an asset may be about other files."""
-    was_read = not any(issue.severity == "error" for issue in report.issues)
-    return (
-        bool(known.asset) and was_read and not {known.a, known.b} <= {b.id for b in report.bodies}
-    )
 
 
 def _would_fail(known: KnownFinding, report: Report) -> bool:

@@ -74,8 +74,10 @@ def rendered(
 
 
 def deliver(document: Document, result: Report | SamplesReport, scene: Scene, to: Delivery) -> None:
-    """Write the documents, and say on stderr what none of them shows."""
+    """Write the documents, and say on stderr what none of them shows. Pictures come last: one that
+    cannot be made costs no report."""
     shown = [target for target in to.targets if target.output is not None or not to.quiet]
+    shown.sort(key=lambda target: kind_of(target.form) == "picture")
     for form, output in shown:
         document.deliver(partial(rendered, result, scene, form, to), output, utf8=form != "table")
     files = "" if to.quiet else files_line(result, scene, to)

@@ -87,7 +87,7 @@ class Baseline(Value, frozen=True, kw_only=True):
 
 class StatedBaseline(Value, frozen=True):
     """The baseline that a report was compared with. absent: known findings of pairs that were
-    checked again and pass now, or of bodies that the asset has no more."""
+    checked again and pass now."""
 
     file: str
     absent: tuple[KnownFinding, ...]

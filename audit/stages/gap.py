@@ -140,7 +140,7 @@ def _at_least(pair: Pair, lower: float) -> Gap:
 
 def compare_convex(pair: Pair, length: float) -> int | None:
     """The sign of (signed distance - length) of two convex bodies, exactly; None where the rounding
-    of a curved shape leaves it open."""
+    of a curved shape leaves it open, or where exact arithmetic takes too many steps."""
     if pair.on_half_space:
         from satcheck.audit.stages.half_space import above
 

@@ -100,8 +100,9 @@ def prune(file: Path, reports: Sequence[Path]) -> None:
     baseline = read_baseline(file)
     absent, gone = list[KnownFinding](), gone_assets(baseline, file)
     for asset, report in _named_reports(reports, file):
-        absent += absent_from(report, baseline, asset)
-        gone.pop(asset, None)
+        for name in _names(asset, report, file):
+            absent += absent_from(report, baseline, name)
+            gone.pop(name, None)
     if gone and gone.keys() == set(baseline.assets):
         message = "all its assets are gone: was it written in another folder?"
         raise click.UsageError(f"{file}: {message}")
@@ -138,18 +139,24 @@ def _refuse_unmeasured(before: Baseline, after: Baseline) -> None:
         )
 
 
+def _names(asset: str, report: Report, file: Path) -> set[str]:
+    """Return what a baseline may call the input of a report. asset: "" for a plain check."""
+    homes = {each.stated_at.file if each.stated_at else each.file for each in report.bodies}
+    return {asset, asset_key(homes.pop(), file)} if not asset and len(homes) == 1 else {asset}
+
+
 def _named(
     findings: Sequence[KnownFinding], report: Report, baseline: Baseline, file: Path
 ) -> Iterator[KnownFinding]:
-    """A pair of a plain check under the name of its asset, if the baseline knows it there."""
-    keys = {known.key for known in baseline.findings}
+    """A pair of a plain check under the name of its asset, if the baseline knows that one."""
+    known = set(baseline.assets)
     bodies = {body.id: body for body in report.bodies}
     for finding in findings:
         a, b = bodies[finding.a], bodies[finding.b]
         homes = {each.stated_at.file if each.stated_at else each.file for each in (a, b)}
         is_one = len(homes) == 1 and (a.stated_at is not None or a.path != b.path)
         under = replace(finding, asset=asset_key(homes.pop(), file))
-        yield under if is_one and not finding.asset and under.key in keys else finding
+        yield under if is_one and not finding.asset and under.asset in known else finding
 
 
 def _entries(baseline: Baseline) -> dict[object, KnownFinding | KnownUndecided]:

@@ -153,13 +153,13 @@ class BesideBaseline(Struct):
             self.states.update(finding.baseline_state for finding in report.findings)
 
     def lines(self) -> list[str]:
-        """`Baseline: 2 known findings, 1 new; 1 more passes or is gone: satcheck baseline prune.`
+        """`Baseline: 2 known findings, 1 new; 1 more passes now: satcheck baseline prune.`
         Nothing without a baseline."""
         if not self.judged:
             return []
         parts = [counted(self.states["unchanged"], "known finding")]
         parts += [f"{self.states[s]:,} {s}" for s in _STATES if self.states[s]]
-        absent = counted(self.absent, "more passes or is gone", "more pass or are gone")
+        absent = counted(self.absent, "more passes now", "more pass now")
         gone = f"; {absent}: satcheck baseline prune" if self.absent else ""
         advice = _UNDECIDED if self.states["undecided"] else ""
         if self.states["new"] and not (self.absent or any(self.states[s] for s in _KNOWN)):

@@ -18,7 +18,6 @@ from tests.cli.process import PUSHED, SAMPLES, Ran, satcheck
 from tests.cli.reports import (
     BOUNDED,
     HIT,
-    MISSING,
     PENETRATING,
     SEPARATED,
     THICK,
@@ -194,15 +193,6 @@ def test_a_finding_is_absent_only_if_its_pair_was_checked() -> None:
     assert absent_from(report(SEPARATED, units="m"), Baseline(findings=(gone,))) == [gone]
 
 
-def test_a_finding_is_absent_if_its_asset_has_the_body_no_more() -> None:
-    renamed = replace(KNOWN, asset="a.glb", a="block", b="moon")
-    baseline = Baseline(findings=(renamed, replace(renamed, asset="")))
-    assert absent_from(report(SEPARATED), baseline, "a.glb") == [renamed]
-    assert absent_from(report(SEPARATED), baseline) == []  # it may be about other files
-    unread = report(SEPARATED, issues=(MISSING,))
-    assert absent_from(unread, baseline, "a.glb") == []
-
-
 def test_a_gap_is_absent_only_if_the_check_would_show_it() -> None:
     touch, near = (replace(finding, b="soup") for finding in (TOUCHING, CLOSE))
     known = Baseline(
@@ -349,9 +339,17 @@ def test_a_check_of_one_file_is_known_by_the_name_of_its_asset(tmp_path: Path) -
     assert (
         "1 finding, 0 added" in repository.run("baseline", "update", "known.json", "one.json").out
     )
+    known = json.loads((tmp_path / "known.json").read_text())
+    known["findings"][0]["a"] = "renamed"
+    (tmp_path / "renamed.json").write_text(json.dumps(known))
+    repository.run("baseline", "update", "renamed.json", "one.json")
+    both = json.loads((tmp_path / "renamed.json").read_text())["findings"]
+    assert [each["asset"] for each in both] == ["gripper.glb"] * 2
     shutil.copy(tmp_path / "gripper.glb", tmp_path / "other.glb")
     assert "0 known findings, 1 new" in repository.run("other.glb", *gate).out
     assert "0 known findings, 1 new" in repository.run("gripper.glb", "other.glb", *gate).out
+    repository.run("gripper.glb", "--max-depth", "99", "-o", "passes.json")
+    assert "1 removed" in repository.run("baseline", "prune", "known.json", "passes.json").out
 
 
 INDETERMINATE = {"a": "x", "b": "y", "severity": "error", "relation": "indeterminate"}

@@ -211,3 +211,12 @@ def test_a_picture_overwrites_no_other_output(tmp_path: Path) -> None:
     ran = satcheck(*PUSHED, "-o", str(report), "-o", str(report))
     assert (ran.code, report.exists()) == (2, False)
     assert "is given twice" in ran.err
+
+
+def test_a_picture_that_cannot_be_made_costs_no_report(tmp_path: Path) -> None:
+    vertices = "".join(f"v {x} {y} {z}\n" for x, y, z in ((0, 0, 0), (1e30, 0, 0), (0, 1e30, 0)))
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.obj").write_text(f"{vertices}f 1 2 3\n")
+    ran = satcheck("a.obj", "b.obj", "-o", "x.png", "-o", "x.json", cwd=tmp_path)
+    assert (ran.code, (tmp_path / "x.json").exists()) == (2, True)
+    assert "there is no picture: coordinates are too large for it" in ran.err
