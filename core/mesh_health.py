@@ -13,12 +13,13 @@ class MeshHealth(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The result of the inspection of a mesh. Edges are counted where triangles meet.
 
     cracks: gaps between faces no wider than the precision of the file; they are closed. holes:
-    loops of the boundary that remain. largest_hole: diagonal of the box around the largest hole,
-    file units; 0 without holes. closed: every edge has an even number of triangles, once cracks are
-    closed. manifold: exactly two. oriented: all triangles agree on which side is outside. volume:
-    signed, file units cubed. inside_out: some parts faced inward and were
-    turned. double_sided: each face exists in both orientations. flat: all vertices in one plane.
-    solid: after the repair, inside and outside are defined, and the inside is not empty.
+    loops of the boundary that remain, and parts that may be solid or cavities. largest_hole:
+    diagonal of the box around the largest of these, file units; 0 without them. closed: every edge
+    has an even number of triangles, once cracks are closed. manifold: exactly two. oriented: all
+    triangles agree on which side is outside. volume: signed, file units cubed. inside_out: some
+    parts faced inward and were turned. double_sided: each face exists in both orientations. flat:
+    all vertices in one plane. solid: after the repair, inside and outside are defined, and the
+    inside is not empty.
     """
 
     vertices: Count
@@ -40,6 +41,11 @@ class MeshHealth(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     double_sided: bool
     flat: bool
     solid: bool
+
+    @property
+    def doubtful(self) -> bool:
+        """Return whether parts of a closed mesh may be solid or cavities: what looks like holes."""
+        return bool(self.closed and self.oriented and self.holes)
 
     @property
     def plain_solid(self) -> bool:

@@ -238,16 +238,17 @@ def _examined(inspection: Inspection, resolution: Resolution, *, orient: bool = 
         flat=not after.solid and inspection.mesh.is_flat(),
         solid=after.solid,
     )
-    return Examined(inspection.mesh, health, tuple(_warnings(health, turned)))
+    return Examined(inspection.mesh, health, tuple(_warnings(health, inspection)))
 
 
-def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
+def _warnings(health: MeshHealth, inspection: Inspection) -> list[tuple[str, str]]:
     warnings = []
+    turned, doubtful = inspection.turned, inspection.doubtful
     sheet = "a sheet, which has no inside"
     if health.cracks:
         cracks = _count(health.cracks, "crack")
         warnings.append(("cracks", f"{cracks} no wider than the precision of the file: closed"))
-    if health.holes:
+    if health.holes and not (doubtful and inspection.repaired.oriented):
         holes, size = _count(health.holes, "hole"), f"{health.largest_hole:.3g}"
         largest = "" if health.holes == 1 else "largest "
         warnings.append(("not-closed", f"open mesh ({holes}, {largest}{size} across)"))
@@ -265,7 +266,10 @@ def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
         edges = _count(health.misoriented_edges, "misoriented edge")
         outcome = "repaired" if turned and health.solid else "not repaired"
         warnings.append(("misoriented", f"inconsistent face orientation ({edges}): {outcome}"))
-    if health.inside_out:
+    if doubtful:
+        parts = "parts that face outward lie within one that faces inward"
+        warnings.append(("doubtful-cavity", f"{parts}: they may be cavities, or solid"))
+    elif health.inside_out:
         what = "the mesh" if health.components == 1 else "at least one part of the mesh"
         volume = f" (volume {health.volume:g})" if health.volume else ""
         warnings.append(("inside-out", f"{what} faced inward{volume}: turned"))

@@ -92,6 +92,11 @@ _ALL = (
     Code("not-manifold", "warning", "An edge has more than two triangles."),
     Code("misoriented", "warning", "Neighbouring triangles disagree on which side is outside."),
     Code("inside-out", "warning", "The mesh, or a part of it, faced inward and was turned."),
+    Code(
+        "doubtful-cavity",
+        "warning",
+        "Parts that face outward lie within one that faces inward: they may be cavities, or solid.",
+    ),
     Code("double-sided", "warning", "Each face exists in both orientations: the mesh is a sheet."),
     Code("flat", "warning", "All triangles lie in one plane: the mesh has no volume."),
     Code("no-volume", "warning", "The mesh is closed and encloses no volume: it is a sheet."),

@@ -306,7 +306,8 @@ def shape_of(file: MeshFile, *, allow_open: bool = False) -> Shape:
         if not is_balanced(vertices, triangles):
             raise Rejected("said to be solid, but its surface is not closed or not evenly wound")
         return Shape(file, vertices, triangles, True)
-    both = with_backs(vertices, triangles, allow_open=allow_open)
+    is_doubtful = file.health.doubtful
+    both = None if is_doubtful else with_backs(vertices, triangles, allow_open=allow_open)
     pieces = None if both is None or allow_open else both[len(triangles) :]
     if both is None or bounds_nothing(vertices, both):
         return Shape(file, vertices, triangles, False, both is None, pieces)

@@ -36,8 +36,8 @@ TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal,
 DEPTH_FIGURES = ("depth", "depth_bounds", "normal", "mtv", "mtv_moves", "mtv_verified")
 # What an undecided pair states; it claims nothing else.
 OF_UNDECIDED = {
-    *("id", "a", "b", "relation", "placed_relation", "severity", "undecided", "reason"),
-    *("tolerance", "motion", "certificate", "plan", "baseline_state"),
+    *("id", "a", "b", "relation", "placed_relation", "severity", "undecided", "reason_code"),
+    *("reason", "message", "tolerance", "motion", "certificate", "plan", "baseline_state"),
 }
 
 

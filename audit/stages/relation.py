@@ -110,8 +110,13 @@ def open_hole(pair: Pair, hole: core.OpenHole) -> str:
     """Return why the hole leaves the relation open."""
     body, other = (pair.a, pair.b) if hole.of_a else (pair.b, pair.a)
     at = ", ".join(f"{c:.4g}" for c in hole.centre)
-    which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
     where = f"in a box {hole.diameter:.3g} from corner to corner at ({at})"
+    if hole.doubtful:
+        return (
+            f"a part of {body.id}, {where}, meets {other.id}: it faces outward within one that "
+            "faces inward, and may be solid or a cavity"
+        )
+    which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
     return f"{which} of {body.id}, {where}, meets {other.id}: its fill decides the relation"
 
 

@@ -39,8 +39,11 @@ def why_not_thick(pair: Pair) -> str | None:
 
 def _open(body: PlacedBody) -> str | None:
     """Why the body is not closed; None: it is."""
+    health = body.body.file.health
+    if health.doubtful:
+        return f"{body.id} has parts that may be solid or cavities"
     if not body.solid:
-        return f"{body.id} has {'holes' if body.body.file.health.holes else 'no inside'}"
+        return f"{body.id} has {'holes' if health.holes else 'no inside'}"
     return f"{body.id} has sheets" if body.shared.has_sheets() else None
 
 

@@ -153,7 +153,10 @@ def _of_bodies(report: Report) -> Iterator[str]:
             yield f"{body.id}: could not be used, its {lost} not checked"
         elif body.health is not None and body.health.holes and swept[body.id]:
             moving = counted(swept[body.id], "pair moves", "pairs move")
-            yield f"{body.id} has holes: {moving} past them, and they may be filled"
+            if body.health.doubtful:
+                yield f"{body.id} has parts that may be solid or cavities: {moving} past them"
+            else:
+                yield f"{body.id} has holes: {moving} past them, and they may be filled"
 
 
 def _issues(report: Report, shown: Sequence[Finding], page: Page) -> Iterator[str]:

@@ -30,6 +30,7 @@ MESHES = {
     "not-manifold": ("non-manifold mesh", "non-manifold meshes"),
     "misoriented": ("inconsistently wound mesh", "inconsistently wound meshes"),
     "inside-out": ("turned mesh", "turned meshes"),
+    "doubtful-cavity": ("mesh with doubtful cavities", "meshes with doubtful cavities"),
     "double-sided": ("double-sided mesh", "double-sided meshes"),
     "flat": ("flat mesh", "flat meshes"),
     "no-volume": ("mesh without volume", "meshes without volume"),
@@ -236,6 +237,10 @@ def _open(report: Report) -> Iterator[str]:
         yield "--accuracy exact decides it"
     elif _depends_on_holes(report, undecided):
         yield "close the holes, or give --allow-open if they are meant to be open"
+    elif undecided and any(issue.code == "doubtful-cavity" for issue in report.issues):
+        yield (
+            "turn the faces: outward on solids, inward on cavities; walls of a room need both sides"
+        )
     elif any(map(_has_no_thickness, asked)):
         yield "--max-depth, or max_depth of a rule, limits what has no thickness"
     elif any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
@@ -268,7 +273,8 @@ def _has_no_thickness(finding: Finding) -> bool:
 
 
 def _depends_on_holes(report: Report, findings: Sequence[Finding]) -> bool:
-    holed = {b.id for b in report.bodies if b.health is not None and b.health.holes}
+    healths = ((body.id, body.health) for body in report.bodies)
+    holed = {id_ for id_, health in healths if health and health.holes and not health.doubtful}
     return not report.settings.allow_open and any(holed & {f.a, f.b} for f in findings)
 
 

@@ -10,6 +10,7 @@ import pytest
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
 from satcheck.verify import verify
+from satcheck.verify.bodies import shape_of
 from tests.audit.shapes import (
     BOX_FACES,
     Mesh,
@@ -51,6 +52,38 @@ def test_a_box_in_a_box_with_a_hole_is_inside_whatever_fills_the_hole(tmp_path, 
     assert relation(tmp_path, outer, unit_box(1, 1, 1)) == "contains"
     assert relation(tmp_path, unit_box(1, 1, 1), outer) == "inside"
     assert relation(tmp_path, outer, unit_box(5, 1, 1)) == "separated"
+
+
+ROOM = together(inverted(unit_box(edge=4.0)), unit_box(1, 1, 1))  # with a table
+
+
+@pytest.mark.parametrize(
+    ("box_in_it", "expected"),
+    [
+        (box((1.25, 1.25, 1.25), (1.75, 1.75, 1.75)), "indeterminate"),  # or a cavity there
+        (box((1.0, 1.25, 1.25), (1.75, 1.75, 1.75)), "indeterminate"),
+        (box((2.5, 2.5, 2.5), (3.5, 3.5, 3.5)), "contains"),
+        (box((1.5, 1.25, 1.25), (2.5, 1.75, 1.75)), "penetrating"),
+        (box((5.0, 1.25, 1.25), (6.0, 1.75, 1.75)), "separated"),
+    ],
+)
+@pytest.mark.parametrize("allow_open", [False, True])
+def test_what_faces_outward_within_what_faces_inward_may_be_solid_or_a_cavity(
+    tmp_path, box_in_it, expected, allow_open
+):
+    report = check(scene_of(tmp_path, a=ROOM, b=box_in_it), Settings(allow_open=allow_open))
+    (finding,) = report.findings or [None]
+    assert (finding.relation if finding else "separated") == expected
+    assert report.summary.verdict == (
+        "pass"
+        if expected == "separated"
+        else "incomplete"
+        if expected == "indeterminate"
+        else "fail"
+    )
+    if expected == "indeterminate":
+        assert "may be solid or a cavity" in finding.reason
+        assert finding.reason_code == "open-hole"
 
 
 def test_a_box_in_the_hole_is_indeterminate_and_the_hole_is_named(tmp_path):
@@ -347,3 +380,11 @@ def test_verify_does_not_accept_that_what_is_surrounded_is_apart(tmp_path):
     document["settings"]["allow_open"] = False
     (finding,) = verify(document, tmp_path).findings
     assert (finding.outcome, finding.reason) == ("rejected", "open pieces of a surround b")
+
+
+def test_verify_takes_an_undecided_pair_as_open(tmp_path):
+    scene = scene_of(tmp_path, a=ROOM, b=box((1.25, 1.25, 1.25), (1.75, 1.75, 1.75)))
+    document = json.loads(json.dumps(check(scene, Settings(certificate=True)).to_dict()))
+    report = verify(document, tmp_path)
+    assert ([finding.outcome for finding in report.findings], report.accepted) == (["open"], True)
+    assert shape_of(scene.bodies[0].file).holed

@@ -112,7 +112,7 @@ def deciding_rim(
     if finding.undecided not in _BY_HOLES or not any(body.file.health.holes for body in pair):
         return None
     hole = core.mesh_relation(*map(surface, pair)).hole
-    if hole is None:
+    if hole is None or hole.doubtful:
         return None
     body = pair[0 if hole.of_a else 1]
     which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"

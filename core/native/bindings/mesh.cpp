@@ -183,14 +183,22 @@ the winding. ValueError when the matrix is not affine or singular, OverflowError
       .def("translated",
            [](const Mesh& mesh, const Tuple3& offset) { return translate(mesh, to_vec3(offset)); },
            "offset"_a, ReleaseGil())
-      .def("topology", &measure_topology, ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
+      .def("topology",
+           [](const Mesh& mesh) {
+             Topology topology = measure_topology(mesh);
+             Budget budget = Budget::that_stops(kNoEnd, interrupting());
+             topology.solid = topology.solid && !find_doubt(weld(mesh), &budget);
+             return topology;
+           },
+           ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
       .def("oriented",
            [](const Mesh& mesh) {
              Budget budget = Budget::that_stops(kNoEnd, interrupting());
              return orient(mesh, &budget);
            },
            ReleaseGil(), R"(Welded, with one winding for each component, and the outermost closed shells outward. Copies of a triangle are
-dropped if that closes the surface.)")
+dropped if that closes the surface. Nothing is turned if shells that face outward lie within one that faces inward: they may
+be solid or cavities.)")
       .def("components", [](const Mesh& mesh, double width) { return split_components(mesh, width, interrupting()); }, "crack_width"_a = 0.0, ReleaseGil(), R"(The edge-connected parts, in order of their
 first triangle. The wall of a cavity belongs to the solid around it. crack_width: points this close may be the same point;
 edges along such a crack count as shared.)")
@@ -255,7 +263,7 @@ void bind_topology(nb::module_& m) {
   nb::class_<Topology>(m, "Topology",
                        R"(Counts and facts of a mesh. closed: no boundary edge, every edge an even number of triangles. manifold: two
 triangles at every edge. oriented: neighbours agree on the winding. volume: signed, 0.0 when not closed.
-solid: closed, oriented and of non-zero volume, so that it has an inside.)")
+solid: closed, oriented and of non-zero volume, so that it has an inside, and in no doubt (oriented()).)")
       .def_ro("vertices", &Topology::vertices)
       .def_ro("triangles", &Topology::triangles)
       .def_ro("components", &Topology::components)
@@ -270,9 +278,10 @@ solid: closed, oriented and of non-zero volume, so that it has an inside.)")
       .def_ro("volume", &Topology::volume)
       .def_ro("solid", &Topology::solid);
   nb::class_<Inspection>(m, "Inspection", R"(The result of inspect(). mesh: welded, oriented if it is closed, in an order that depends on coordinates alone. turned: orienting
-changed the mesh. cracks: the number of closed cracks. topology: before these repairs; repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), file units, or None.)")
+changed the mesh. doubtful: shells of it may be solid or cavities; it is not turned. cracks: the number of closed cracks. topology: before these repairs; repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), file units, or None.)")
       .def_ro("mesh", &Inspection::mesh)
       .def_ro("turned", &Inspection::turned)
+      .def_ro("doubtful", &Inspection::doubtful)
       .def_ro("cracks", &Inspection::cracks)
       .def_prop_ro("hole_count", [](const Inspection& inspection) { return inspection.holes.size(); })
       .def_prop_ro("largest_hole",

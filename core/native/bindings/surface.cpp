@@ -96,12 +96,13 @@ std::int64_t triangle_number(std::uint32_t triangle) {
 
 void bind_mesh_relation(nb::module_& m) {
   nb::class_<OpenHole>(m, "OpenHole", R"(A hole that leaves a relation open, world units. of_a: whether the first body has it; number: from 0 on, the
-largest hole of the body first; count: of its holes.)")
+largest hole of the body first; count: of its holes. doubtful: it is a shell that may be solid or the wall of a cavity.)")
       .def_ro("of_a", &OpenHole::of_a)
       .def_ro("number", &OpenHole::number)
       .def_ro("count", &OpenHole::count)
       .def_prop_ro("centre", [](const OpenHole& hole) { return to_tuple(hole.centre); })
-      .def_ro("diameter", &OpenHole::diameter);
+      .def_ro("diameter", &OpenHole::diameter)
+      .def_ro("doubtful", &OpenHole::doubtful);
   nb::class_<MeshRelation>(m, "MeshRelation", R"(proven: False if samples decided a degenerate contact, or if `hole` leaves the relation open; the relation is then
 that of the surfaces without fills. decided: False if that takes more steps than a pair may; the relation is then
 "indeterminate".)")

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "convex/convex_hull.hpp"
 #include "mesh/chains.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/orient.hpp"
 
 namespace satcheck {
 namespace {
@@ -41,7 +43,6 @@ std::vector<Triangle> fan(const BoundaryLoop& loop) {
 
 namespace {
 
-// The largest first.
 std::vector<Hole> make_holes(const Mesh& mesh, const std::vector<BoundaryLoop>& loops) {
   std::map<std::uint32_t, std::uint32_t> first_at;  // a vertex: the first loop there
   DisjointSets sets(loops.size());
@@ -60,15 +61,33 @@ std::vector<Hole> make_holes(const Mesh& mesh, const std::vector<BoundaryLoop>& 
     hole.loops.push_back(loops[i]);
     for (const std::uint32_t v : loops[i]) hole.box.include(mesh.vertices[v]);
   }
+  return holes;
+}
+
+Hole doubtful_hole(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  Hole hole;
+  std::set<std::uint32_t> vertices;
+  for (const std::uint32_t t : triangles) vertices.insert(mesh.triangles[t].begin(), mesh.triangles[t].end());
+  hole.shell.assign(vertices.begin(), vertices.end());
+  for (const std::uint32_t v : hole.shell) hole.box.include(mesh.vertices[v]);
+  return hole;
+}
+
+void sort_by_size(std::vector<Hole>& holes) {
   const auto key = [](const Hole& h) {
     const Vec3 c = h.centre();
     return std::tuple(-h.diameter(), c.x, c.y, c.z);
   };
   std::stable_sort(holes.begin(), holes.end(), [&](const Hole& g, const Hole& h) { return key(g) < key(h); });
-  return holes;
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> Hole::vertices() const {
+  std::vector<std::uint32_t> all = shell;
+  for (const BoundaryLoop& loop : loops) all.insert(all.end(), loop.begin(), loop.end());
+  return all;
+}
 
 std::vector<std::uint32_t> flat_parts(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
@@ -102,8 +121,11 @@ void double_triangles(Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
   }
 }
 
-std::vector<Hole> find_holes(const Mesh& welded) {
-  return make_holes(welded, boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles)));
+std::vector<Hole> find_holes(const Mesh& welded, const std::vector<std::vector<std::uint32_t>>& doubtful) {
+  std::vector<Hole> holes = make_holes(welded, boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles)));
+  for (const auto& triangles : doubtful) holes.push_back(doubtful_hole(welded, triangles));
+  sort_by_size(holes);
+  return holes;
 }
 
 namespace {
@@ -113,9 +135,10 @@ constexpr std::uint64_t kHullWork = 100;
 
 Closing fill_holes(const Surface& open, Budget* budget) {
   Closing closing;
-  Mesh closed = open.mesh;
+  const Doubt doubt = find_doubt(open.mesh, budget).value_or(Doubt{open.mesh, {}});
+  Mesh closed = doubt.outward;
   double_triangles(closed, open.sheets);
-  closing.holes = find_holes(closed);
+  closing.holes = find_holes(closed, doubt.shells);
   for (const Hole& hole : closing.holes) {
     for (const BoundaryLoop& loop : hole.loops) {
       const std::vector<Triangle> triangles = fan(loop);
@@ -129,7 +152,7 @@ Closing fill_holes(const Surface& open, Budget* budget) {
 
 // A triangle and its reverse cancel in winding numbers, so the open parts become sheets. Closed patches within an
 // edge-connected part stay solid.
-Closing double_open_parts(const Mesh& welded) {
+Closing double_open_parts(const Mesh& welded, Budget* budget) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   const Labels parts = label_components(welded, edges), patches = label_manifold_patches(welded, edges);
   const std::vector<bool> open_part = find_open_sets(parts, edges), open_patch = find_open_sets(patches, edges);
@@ -137,7 +160,8 @@ Closing double_open_parts(const Mesh& welded) {
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
     if (open_part[parts.of_triangle[t]] && open_patch[patches.of_triangle[t]]) sheets.push_back(t);
   }
-  Mesh closed = welded;
+  const auto doubt = find_doubt(welded, budget);
+  Mesh closed = doubt ? doubt->outward : welded;
   double_triangles(closed, sheets);
   return {std::make_shared<const Surface>(make_surface(closed, true)), {}, {}};
 }
@@ -148,9 +172,7 @@ std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes, 
   std::vector<Surface> hulls;
   for (const Hole& hole : holes) {
     std::vector<Vec3> points;
-    for (const BoundaryLoop& loop : hole.loops) {
-      for (const std::uint32_t v : loop) points.push_back(mesh.vertices[v]);
-    }
+    for (const std::uint32_t v : hole.vertices()) points.push_back(mesh.vertices[v]);
     spend(budget, kHullWork * points.size());
     Polytope hull = convex_hull(points, budget);
     hulls.push_back(make_surface(Mesh{std::move(hull.vertices), std::move(hull.triangles)}, true));
@@ -159,7 +181,7 @@ std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes, 
 }
 
 Closing close_surface(const Surface& open, OpenParts parts, Budget* budget) {
-  return parts == OpenParts::filled ? fill_holes(open, budget) : double_open_parts(open.mesh);
+  return parts == OpenParts::filled ? fill_holes(open, budget) : double_open_parts(open.mesh, budget);
 }
 
 }  // namespace satcheck

@@ -26,11 +26,14 @@ std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& ed
 // Triangles that close the loop: a fan about its first vertex, against the direction of the loop.
 std::vector<Triangle> fan(const BoundaryLoop& loop);
 
-// Loops that share a vertex are one hole, because they can be split in several ways, and one fill may close them all.
+// Loops that share a vertex are one hole, because they can be split in several ways, and one fill may close them all. A
+// shell that may be solid or the wall of a cavity (mesh/orient.hpp) is a hole too: it has no loops.
 struct Hole {
   std::vector<BoundaryLoop> loops;
+  std::vector<std::uint32_t> shell;  // the vertices of such a shell
   Aabb box;
 
+  std::vector<std::uint32_t> vertices() const;
   double diameter() const { return norm(box.max - box.min); }
   Vec3 centre() const { return (box.min + box.max) * 0.5; }
 };
@@ -45,11 +48,11 @@ std::vector<std::uint32_t> open_parts(const Mesh& welded);
 // Turns these triangles into sheets by adding them in the opposite winding.
 void double_triangles(Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
-// The largest first. Flat parts are holes too, unless they are doubled.
-std::vector<Hole> find_holes(const Mesh& welded);
+// The largest first. Flat parts are holes too, unless they are doubled. doubtful: the triangles of shells (mesh/orient.hpp).
+std::vector<Hole> find_holes(const Mesh& welded, const std::vector<std::vector<std::uint32_t>>& doubtful = {});
 
 struct Closing {
-  // Closed: the triangles of the open surface first, then those that close it.
+  // Closed: the triangles of the open surface first, then those that close it. Doubtful shells are cavities.
   std::shared_ptr<const Surface> surface;
   std::vector<Hole> holes;     // the largest first; none of sheets
   std::vector<Surface> hulls;  // closed, one for each hole: every fill of the hole lies within it

@@ -145,10 +145,14 @@ Topology measure_sorted(const Mesh& sorted) {
 
 bool has_boundary(const Topology& topology) { return !topology.closed || !topology.oriented; }
 
-std::vector<Hole> holes_but_flat_parts(const Mesh& welded) {
-  Mesh mesh = welded;
-  double_triangles(mesh, flat_parts(welded));
-  return find_holes(mesh);
+// Without those of flat parts.
+std::vector<Hole> holes_of(const Inspection& inspection, const Poll& poll) {
+  if (!inspection.doubtful && !has_boundary(inspection.repaired)) return {};
+  Mesh mesh = inspection.mesh;
+  double_triangles(mesh, flat_parts(inspection.mesh));
+  if (!inspection.doubtful) return find_holes(mesh);
+  Budget budget = Budget::that_stops(kMostSteps, poll);
+  return find_holes(mesh, find_doubt(inspection.mesh, &budget).value_or(Doubt{}).shells);
 }
 
 Inspection sealed(Inspection given, double width, Budget& budget) {
@@ -159,11 +163,14 @@ Inspection sealed(Inspection given, double width, Budget& budget) {
 
 void orient_mesh(Inspection& result, const Poll& poll) {
   Budget budget = Budget::that_stops(kMostSteps, poll);
-  Mesh oriented = orient(result.mesh, &budget);
-  if (oriented.triangles == result.mesh.triangles && oriented.vertices == result.mesh.vertices) return;
-  result.mesh = std::move(oriented);
-  result.turned = true;
-  result.repaired = measure_topology(result.mesh);
+  result.doubtful = false;
+  Mesh oriented = orient(result.mesh, &budget, &result.doubtful);
+  if (oriented.triangles != result.mesh.triangles || oriented.vertices != result.mesh.vertices) {
+    result.mesh = std::move(oriented);
+    result.turned = true;
+    result.repaired = measure_topology(result.mesh);
+  }
+  if (result.doubtful) result.repaired.solid = false;
 }
 
 }  // namespace
@@ -176,7 +183,7 @@ Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll) {
   result.topology = result.repaired = measure_sorted(result.mesh);
   if (result.topology.is_plain_solid()) return result;
   if (orient_it && result.topology.closed) orient_mesh(result, poll);
-  if (has_boundary(result.repaired)) result.holes = holes_but_flat_parts(result.mesh);
+  result.holes = holes_of(result, poll);
   return result;
 }
 
@@ -189,7 +196,7 @@ Inspection with_cracks_closed(Inspection given, bool orient_it, double width, co
     result = sealed(std::move(given), width, budget);
   }
   if (orient_it) orient_mesh(result, poll);
-  result.holes = has_boundary(result.repaired) ? holes_but_flat_parts(result.mesh) : std::vector<Hole>{};
+  result.holes = holes_of(result, poll);
   return result;
 }
 

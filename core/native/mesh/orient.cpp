@@ -26,6 +26,7 @@ struct Patch {
   bool shell = false;  // closed and consistently wound by itself
   bool solid = false;  // it is, or its component as a whole
   bool alone = true;   // shares no edge with another patch, so that it can be turned by itself
+  bool turned = false;
   double volume = 0;   // signed; of an open patch, closed by a cone over its boundary
   Aabb box, rim;
   Aabb solid_box;  // of all that is solid with it
@@ -34,6 +35,7 @@ struct Patch {
 void flip(Mesh& mesh, Patch& patch) {
   for (const std::uint32_t t : patch.triangles) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
   patch.volume = -patch.volume;
+  patch.turned = !patch.turned;
 }
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -279,23 +281,15 @@ void drop_surplus(Mesh& welded, std::optional<EdgeTable>& edges) {
   edges.emplace(welded.vertices.size(), welded.triangles);
 }
 
-}  // namespace
-
-Mesh orient(const Mesh& mesh, Budget* budget) {
-  Mesh result = weld(mesh);
-  std::optional<EdgeTable> edges(std::in_place, result.vertices.size(), result.triangles);
-  drop_surplus(result, edges);
-  const Labels labels = label_manifold_patches(result, *edges);
-  std::vector<Patch> patches = make_patches(labels);
-  if (repair_patches(result, *edges, patches)) edges.emplace(result.vertices.size(), result.triangles);
-  find_shells(result, *edges, labels, patches);
-  if (find_solids(result, *edges, patches) < 0) {
-    for (Patch& patch : patches) flip(result, patch);
+// Turns the patches that face inward, with all that lies within them. volume: of all solids.
+void turn_outward(Mesh& mesh, double volume, const Labels& labels, std::vector<Patch>& patches, Budget* budget) {
+  if (volume < 0) {
+    for (Patch& patch : patches) flip(mesh, patch);
   }
-  Nesting nesting(result, labels, patches, budget);
+  Nesting nesting(mesh, labels, patches, budget);
   std::vector<std::uint32_t> inside_out, shells;
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
-    if (!has_to_turn(result, patches, p, nesting)) continue;
+    if (!has_to_turn(mesh, patches, p, nesting)) continue;
     inside_out.push_back(p);
     if (patches[p].shell) shells.push_back(p);
   }
@@ -303,8 +297,46 @@ Mesh orient(const Mesh& mesh, Budget* budget) {
     const bool stays = patches[p].shell && !std::binary_search(shells.begin(), shells.end(), p);
     if (stays && nesting.turns_along(p, shells)) inside_out.push_back(p);
   }
-  for (const std::uint32_t p : inside_out) flip(result, patches[p]);
+  for (const std::uint32_t p : inside_out) flip(mesh, patches[p]);
+}
+
+// Whether it has become the wall of a cavity because what lies around it was turned.
+bool is_doubtful(const Patch& patch) { return patch.shell && patch.turned && patch.volume < 0; }
+
+}  // namespace
+
+Mesh orient(const Mesh& mesh, Budget* budget, bool* doubtful) {
+  Mesh result = weld(mesh);
+  std::optional<EdgeTable> edges(std::in_place, result.vertices.size(), result.triangles);
+  drop_surplus(result, edges);
+  const Labels labels = label_manifold_patches(result, *edges);
+  std::vector<Patch> patches = make_patches(labels);
+  if (repair_patches(result, *edges, patches)) edges.emplace(result.vertices.size(), result.triangles);
+  find_shells(result, *edges, labels, patches);
+  Mesh outward = result;
+  turn_outward(outward, find_solids(result, *edges, patches), labels, patches, budget);
+  if (std::none_of(patches.begin(), patches.end(), is_doubtful)) return outward;
+  if (doubtful != nullptr) *doubtful = true;
   return result;
+}
+
+std::optional<Doubt> find_doubt(const Mesh& welded, Budget* budget) {
+  const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  const Labels labels = label_manifold_patches(welded, edges);
+  std::vector<Patch> patches = make_patches(labels);
+  if (patches.size() == 1) return std::nullopt;
+  find_shells(welded, edges, labels, patches);
+  const double volume = find_solids(welded, edges, patches);
+  const auto a_shell_faces = [&](double way) {
+    return std::any_of(patches.begin(), patches.end(), [&](const Patch& p) { return p.shell && way * p.volume > 0; });
+  };
+  if (!a_shell_faces(1) || !(volume < 0 || a_shell_faces(-1))) return std::nullopt;
+  Doubt doubt{welded, {}};
+  turn_outward(doubt.outward, volume, labels, patches, budget);
+  for (const Patch& patch : patches) {
+    if (is_doubtful(patch)) doubt.shells.push_back(patch.triangles);
+  }
+  return doubt.shells.empty() ? std::nullopt : std::optional(std::move(doubt));
 }
 
 std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const Poll& poll) {
@@ -317,8 +349,9 @@ std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const P
   std::vector<std::uint32_t> place(welded.vertices.size());
   std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
   Labels labels = label_components(sealed, edges);
-  // What is a cavity shows where the mesh faces outward. The parts themselves stay as they are.
+  // What is a cavity, or may be one, shows where the mesh faces outward. The parts themselves stay as they are.
   Mesh outward = orient(sealed, &budget);
+  if (const auto doubt = find_doubt(outward, &budget)) outward = doubt->outward;
   if (outward.triangles.size() != sealed.triangles.size()) outward = sealed;  // without copies
   const EdgeTable outward_edges(outward.vertices.size(), outward.triangles);
   const std::vector<std::uint32_t> solids = solids_of(outward, outward_edges, labels, &budget);

@@ -12,6 +12,7 @@
 #include "base/patches.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/boundary.hpp"
+#include "mesh/orient.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/winding.hpp"
 
@@ -82,6 +83,7 @@ Surface make_surface(const Mesh& mesh, bool solid, OpenParts open) {
   parallel_for(std::size(tasks), threads, [&](std::size_t i) { tasks[i](); });
   if (solid && !surface.solid) throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
   surface.open_parts = open;
+  if (!solid && surface.solid) surface.solid = !find_doubt(surface.mesh);
   if (!surface.solid) surface.sheets = open == OpenParts::sheets ? open_parts(surface.mesh) : flat_parts(surface.mesh);
   return surface;
 }

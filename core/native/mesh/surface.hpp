@@ -41,7 +41,8 @@ struct Surface {
   const Mesh& mesh;
   Bvh bvh;
   std::vector<std::uint32_t> parts;  // a triangle of each part that is connected through common vertices
-  // Closed: every edge is run as often in one direction as in the other, so every point has a winding number.
+  // Closed: every edge is run as often in one direction as in the other, so every point has a winding number, and no shell
+  // is doubtful (mesh/orient.hpp).
   bool solid = false;
   // Triangles of open parts that lie in one plane or are intended to be open. They stay sheets even if the rounding of
   // a placement bends them.
@@ -60,7 +61,7 @@ std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts, 
 // point outside of all hulls are inside or outside like that point, for every fill. Made once.
 std::shared_ptr<const Surface> walled_surface(const Surface& open, OpenParts parts);
 
-// Throws std::invalid_argument if `solid` is true for a surface that is not closed.
+// solid: it is known to be one. Throws std::invalid_argument if it is true for a surface that is not closed.
 Surface make_surface(const Mesh& mesh, bool solid, OpenParts open = OpenParts::filled);
 
 // The same for a mesh from inspect() whose topology is a plain solid. This is not proven again. region: of all queries,

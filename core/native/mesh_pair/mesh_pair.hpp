@@ -21,12 +21,14 @@ enum class Relation { separated, touching, penetrating, contains, inside, coinci
 
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 
-// A hole that leaves the relation open, because its fill may meet the other body.
+// A hole that leaves the relation open, because its fill may meet the other body. doubtful: it is a shell that may be solid
+// or the wall of a cavity.
 struct OpenHole {
   bool of_a = true;
   std::size_t number = 0, count = 0;  // number: from 0 on, the largest hole first
   Vec3 centre;
   double diameter = 0;
+  bool doubtful = false;
 };
 
 struct MeshRelation {

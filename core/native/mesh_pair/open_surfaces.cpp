@@ -62,7 +62,7 @@ class HoledSide {
 
   OpenHole open_hole(std::size_t k) const {
     const Hole& hole = holed_.holes[k];
-    return {is_a_, k, holed_.holes.size(), hole.centre(), hole.diameter()};
+    return {is_a_, k, holed_.holes.size(), hole.centre(), hole.diameter(), hole.loops.empty()};
   }
 
   const Closing& holed_;

@@ -146,10 +146,8 @@ bool hole_in_the_way(Side holed, Side other, double rounding) {
 
 Hole in_world(const Hole& hole, Side holed) {
   Hole placed;
-  for (const BoundaryLoop& loop : hole.loops) {
-    for (const std::uint32_t v : loop) {
-      placed.box.include(holed.at.linear * holed.body.surface().mesh.vertices[v] + holed.at.offset);
-    }
+  for (const std::uint32_t v : hole.vertices()) {
+    placed.box.include(holed.at.linear * holed.body.surface().mesh.vertices[v] + holed.at.offset);
   }
   return placed;
 }
@@ -168,7 +166,7 @@ std::optional<OpenHole> largest_in_the_way(Side holed, Side other, bool is_a, do
     size = placed.diameter();
   }
   if (!(size > next + 2 * rounding) || !is_in_the_way(closing.hulls[largest], holed, other, rounding)) return {};
-  return OpenHole{is_a, 0, closing.holes.size(), hole.centre(), size};
+  return OpenHole{is_a, 0, closing.holes.size(), hole.centre(), size, closing.holes[largest].loops.empty()};
 }
 
 // Two bodies, at least one of them open. True: the hull of a hole has a common inner point with the other body, and a

@@ -22,7 +22,11 @@ void caves_belong_to_their_solids() {
     const std::vector<Mesh> parts = split_components(round % 2 == 0 ? outward : reversed(outward));
     several += parts.size() > 1;
     std::vector<Surface> solids;
-    for (const Mesh& part : parts) solids.push_back(make_surface(orient(part), true));
+    for (const Mesh& part : parts) {
+      const Mesh oriented = orient(part);
+      const auto doubt = find_doubt(oriented);
+      solids.push_back(make_surface(doubt ? doubt->outward : oriented, true));
+    }
     for (int x = 0; x < 5; ++x)
       for (int y = 0; y < 5; ++y)
         for (int z = 0; z < 5; ++z) {

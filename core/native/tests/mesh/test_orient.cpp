@@ -1,10 +1,12 @@
 // Repairs of winding, against boxes whose nesting is known by their corners.
 #include "mesh/orient.hpp"
 
+#include <algorithm>
 #include <random>
 
 #include "mesh/surface.hpp"
 #include "mesh/topology.hpp"
+#include "mesh_pair/mesh_pair.hpp"
 #include "tests/boxes.hpp"
 #include "tests/check.hpp"
 
@@ -74,12 +76,15 @@ void stacks() {
     const Stack stack = random_stack(generator);
     Mesh all;
     for (const Mesh& m : stack.boxes) append(all, m);
-    const Mesh result = orient(all);
+    const Mesh oriented = orient(all);
+    const std::optional<Doubt> doubt = find_doubt(oriented);
+    const Mesh result = doubt ? doubt->outward : oriented;
     const Topology topology = measure_topology(result);
     CHECK(topology.solid && topology.oriented && topology.triangles == all.triangles.size());
     CHECK(topology.volume > 0);
     int around = 0;  // the winding number of the boxes around
     int facing = 1;  // -1: the boxes around are turned
+    std::size_t doubtful = 0;
     for (std::size_t k = 0; k < stack.boxes.size(); ++k) {
       if (stack.depth[k] == 0) around = 0, facing = 1;
       // A box with mixed winding faces outward, as most of its triangles do. A box in material turns with the boxes
@@ -89,11 +94,16 @@ void stacks() {
       if (turns) facing = -facing;
       const bool outward = turns || wound > 0;
       CHECK((volume_of(result, stack.boxes[k]) > 0) == outward);
+      // It faced outward, and is a cavity only because the boxes around it were turned.
+      if (stack.wound[k] != Wound::inward && !outward) ++doubtful;
       around += outward ? 1 : -1;
     }
+    CHECK((doubt ? doubt->shells.size() : 0) == doubtful);
+    CHECK(make_surface(oriented, false).solid == !doubt);
     // Again, nothing changes.
     const Mesh again = orient(result);
     CHECK(again.triangles == result.triangles && again.vertices == result.vertices);
+    CHECK(orient(oriented).triangles == oriented.triangles);
   }
 }
 
@@ -105,10 +115,44 @@ void caves() {
     const Cells cells = random_cells(generator, 5, 0.4 + 0.1 * (round % 5));
     const Mesh outward = boundary_of(cells);
     if (outward.triangles.empty()) continue;
-    const Surface solid = make_surface(orient(round % 2 == 0 ? outward : reversed(outward)), true);
+    const Mesh oriented = orient(round % 2 == 0 ? outward : reversed(outward));
+    const std::optional<Doubt> doubt = find_doubt(oriented);
+    const Surface solid = make_surface(doubt ? doubt->outward : oriented, true);
     for (int x = 0; x < 5; ++x)
       for (int y = 0; y < 5; ++y)
         for (int z = 0; z < 5; ++z) CHECK(winding_number(solid, {x + 0.5, y + 0.5, z + 0.5}) == (cells(x, y, z) ? 1 : 0));
+  }
+}
+
+// A room that faces inward, with a table that faces outward: in the table nothing is known, elsewhere all is.
+void rooms() {
+  const Vec3 low{2, 2, 0.5}, high{4, 4, 1.5};
+  Mesh room = reversed(box({0, 0, 0}, {10, 10, 4}));
+  append(room, box(low, high));
+  const Surface surface = make_surface(orient(room), false);
+  CHECK(!surface.solid);
+  std::mt19937 generator(31);
+  std::uniform_real_distribution<double> x(-1, 11), z(-1, 5), size(0.1, 3);
+  for (int round = 0; round < rounds(400); ++round) {
+    const Vec3 from{x(generator), x(generator), z(generator)};
+    const Vec3 to = from + Vec3{size(generator), size(generator), size(generator)};
+    const auto lies_in = [&](Vec3 least, Vec3 most) {
+      return std::min({from.x - least.x, from.y - least.y, from.z - least.z, most.x - to.x, most.y - to.y, most.z - to.z}) > 0;
+    };
+    const auto is_clear_of = [&](Vec3 least, Vec3 most) {
+      return std::max({from.x - most.x, from.y - most.y, from.z - most.z, least.x - to.x, least.y - to.y, least.z - to.z}) > 0;
+    };
+    const MeshRelation found = mesh_relation(surface, make_surface(box(from, to), true));
+    if (lies_in(low, high)) {
+      CHECK(found.hole && found.hole->doubtful && !found.proven);
+    } else {
+      const Relation expected = is_clear_of({0, 0, 0}, {10, 10, 4})                            ? Relation::separated
+                                : lies_in({0, 0, 0}, {10, 10, 4}) && is_clear_of(low, high) ? Relation::contains
+                                                                                               : Relation::penetrating;
+      const bool around_the_table = lies_in({0, 0, 0}, {10, 10, 4}) && from.x < low.x && from.y < low.y && from.z < low.z &&
+                                    high.x < to.x && high.y < to.y && high.z < to.z;
+      if (!around_the_table) CHECK(found.proven && !found.hole && found.relation == expected);
+    }
   }
 }
 
@@ -149,6 +193,7 @@ void copies() {
 UNIT(orient) {
   stacks();
   caves();
+  rooms();
   one_sided();
   copies();
 }
