@@ -194,17 +194,18 @@ class Nesting {
   }
 
  private:
-  // The winding number of other solids around the shell; none: it lies on their surface. The box test avoids building the
-  // tree if no other solid can contain it. solids: ascending.
+  // The winding number of other solids around the shell; none: it lies on their surface. Only solids whose boxes contain it
+  // count: those beside it may share all its faces. The box test avoids building the tree if there is none. solids:
+  // ascending.
   std::optional<int> winding_around(std::uint32_t patch, const std::vector<std::uint32_t>& solids) {
-    const bool possible = std::any_of(solids.begin(), solids.end(), [&](std::uint32_t other) {
+    const auto may_contain = [&](std::uint32_t other) {
       spend(budget_, kBoxWork);
       return other != patch && patches_[other].solid_box.contains(patches_[patch].box);
-    });
-    if (!possible) return 0;
+    };
+    if (std::none_of(solids.begin(), solids.end(), may_contain)) return 0;
     const auto counts = [&](std::uint32_t t) {
       const std::uint32_t other = labels_.of_triangle[t];
-      return other != patch && std::binary_search(solids.begin(), solids.end(), other);
+      return may_contain(other) && std::binary_search(solids.begin(), solids.end(), other);
     };
     std::optional<int> winding;
     for (const std::uint32_t t : patches_[patch].triangles) {

@@ -156,6 +156,20 @@ void rooms() {
   }
 }
 
+// All faces of a box lie within faces of the boxes beside it, which do not say what lies around it.
+void between_others() {
+  const Aabb boxes[] = {{{0, 0, 0}, {9, 9, 9}}, {{2, 2, 2}, {4, 4, 4}}, {{4, 1, 2}, {5, 4, 4}}, {{1, 2, 2}, {2, 5, 4}},
+                        {{2, 4, 2}, {5, 5, 4}}, {{1, 1, 2}, {4, 2, 4}}, {{1, 1, 4}, {5, 5, 5}}, {{1, 1, 1}, {5, 5, 2}}};
+  Mesh all;
+  double volume = 0;
+  for (const Aabb& b : boxes) {
+    append(all, reversed(box(b.min, b.max)));
+    const Vec3 size = b.max - b.min;
+    volume += size.x * size.y * size.z;
+  }
+  CHECK(measure_topology(orient(all)).volume == volume);
+}
+
 // A Moebius strip cannot be wound consistently, and is left as it is.
 void one_sided() {
   Mesh strip;
@@ -194,6 +208,7 @@ UNIT(orient) {
   stacks();
   caves();
   rooms();
+  between_others();
   one_sided();
   copies();
 }
