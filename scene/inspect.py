@@ -248,7 +248,7 @@ def _warnings(health: MeshHealth, inspection: Inspection) -> list[tuple[str, str
     if health.cracks:
         cracks = _count(health.cracks, "crack")
         warnings.append(("cracks", f"{cracks} no wider than the precision of the file: closed"))
-    if health.holes and not (doubtful and inspection.repaired.oriented):
+    if health.holes and not health.doubtful:
         holes, size = _count(health.holes, "hole"), f"{health.largest_hole:.3g}"
         largest = "" if health.holes == 1 else "largest "
         warnings.append(("not-closed", f"open mesh ({holes}, {largest}{size} across)"))

@@ -86,6 +86,34 @@ def test_what_faces_outward_within_what_faces_inward_may_be_solid_or_a_cavity(
         assert finding.reason_code == "open-hole"
 
 
+@pytest.mark.parametrize(
+    ("room_faces_inward", "table_faces_inward", "expected", "with_allow_open"),
+    [
+        (True, False, "indeterminate", "contains"),
+        (True, True, "contains", "contains"),
+        (False, False, "contains", "contains"),
+        (False, True, "separated", "contains"),  # a cavity; with --allow-open a part inside out
+    ],
+)
+@pytest.mark.parametrize("beside", [None, unit_box(10, edge=9.0)])
+def test_a_part_within_an_open_one_is_judged_like_one_within_a_closed_one(
+    tmp_path, room_faces_inward, table_faces_inward, expected, with_allow_open, beside
+):
+    points, faces = unit_box(edge=4.0)
+    room = points, [f for f in faces if any(points[v][2] != 4 for v in f)]
+    table = unit_box(1, 1, 1)
+    parts = [
+        inverted(room) if room_faces_inward else room,
+        inverted(table) if table_faces_inward else table,
+    ]
+    mesh = together(*parts, *([beside] if beside else []))
+    part = box((1.25, 1.25, 1.25), (1.75, 1.75, 1.75))
+    for allow_open, relation_then in ((False, expected), (True, with_allow_open)):
+        report = check(scene_of(tmp_path, a=mesh, b=part), Settings(allow_open=allow_open))
+        (finding,) = report.findings or [None]
+        assert (finding.relation if finding else "separated") == relation_then
+
+
 def test_a_box_in_the_hole_is_indeterminate_and_the_hole_is_named(tmp_path):
     report = check(scene_of(tmp_path, shell=open_box(), part=unit_box(1, 1, 3.5)))
     finding = only(report)

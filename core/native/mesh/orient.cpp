@@ -10,6 +10,7 @@
 #include "exact/exact_point.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
+#include "mesh/boundary.hpp"
 #include "mesh/cavities.hpp"
 #include "mesh/cracks.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -22,13 +23,13 @@ namespace {
 
 // A set of triangles connected through edges of exactly two triangles.
 struct Patch {
-  std::vector<std::uint32_t> triangles, on_rim;
+  std::vector<std::uint32_t> triangles;
   bool shell = false;  // closed and consistently wound by itself
   bool solid = false;  // it is, or its component as a whole
-  bool alone = true;   // shares no edge with another patch, so that it can be turned by itself
+  bool open = false;   // only fills close it, or its component
   bool turned = false;
-  double volume = 0;   // signed; of an open patch, closed by a cone over its boundary
-  Aabb box, rim;
+  double volume = 0;   // signed; 0: no shell
+  Aabb box;
   Aabb solid_box;  // of all that is solid with it
 };
 
@@ -56,15 +57,15 @@ bool has_mixed_winding(const Mesh& mesh, const EdgeTable& edges) {
 
 // Makes patches with mixed winding consistent, with the winding of the majority. A patch that is not orientable does
 // not change. Returns whether any triangle was turned, which changes the half-edges.
-bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>& patches) {
+bool repair_patches(Mesh& mesh, const EdgeTable& edges) {
   if (!has_mixed_winding(mesh, edges)) return false;
   bool repaired = false;
   const std::vector<std::uint32_t> twins = edges.twins();
   enum : signed char { kUnseen, kKeep, kFlip };
   std::vector<signed char> state(mesh.triangles.size(), kUnseen);
-  for (const Patch& patch : patches) {
+  for (const std::vector<std::uint32_t>& patch : label_manifold_patches(mesh, edges).members()) {
     bool orientable = true;
-    std::vector<std::uint32_t> queue{patch.triangles[0]};
+    std::vector<std::uint32_t> queue{patch[0]};
     state[queue[0]] = kKeep;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       for (std::uint32_t h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
@@ -80,7 +81,7 @@ bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>
       }
     }
     std::vector<std::uint32_t> flipped, kept;
-    for (const std::uint32_t t : patch.triangles) (state[t] == kFlip ? flipped : kept).push_back(t);
+    for (const std::uint32_t t : patch) (state[t] == kFlip ? flipped : kept).push_back(t);
     if (!orientable || flipped.empty()) continue;
     repaired = true;
     for (const std::uint32_t t : flipped.size() <= kept.size() ? flipped : kept) {
@@ -90,36 +91,10 @@ bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>
   return repaired;
 }
 
-// The volume between the patch and the centre of its boundary. Rounded.
-double volume_over_rim(const Mesh& mesh, const Patch& patch) {
-  const Vec3 centre = (patch.rim.min + patch.rim.max) * 0.5;
-  double sum = 0;
-  for (const std::uint32_t t : patch.triangles) {
-    const Triangle& v = mesh.triangles[t];
-    const Vec3 p = mesh.vertices[v[0]] - centre, q = mesh.vertices[v[1]] - centre, r = mesh.vertices[v[2]] - centre;
-    sum += dot(p, cross(q, r));
-  }
-  return sum / 6;
-}
-
-void find_rims(const Mesh& mesh, const EdgeTable& edges, const Labels& labels, std::vector<Patch>& patches) {
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto half_edges = edges.half_edges(e);
-    if (half_edges.size() == 2) continue;
-    for (const std::uint32_t h : half_edges) {
-      Patch& patch = patches[labels.of_triangle[h / 3]];
-      patch.alone = patch.alone && half_edges.size() == 1;
-      patch.on_rim.push_back(h / 3);
-      for (int i = 0; i < 2; ++i) patch.rim.include(mesh.vertices[mesh.triangles[h / 3][(h % 3 + i) % 3]]);
-    }
-  }
-}
-
 // A patch is a shell when it runs each of its edges equally often in both directions.
 void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels, std::vector<Patch>& patches) {
   const std::vector<bool> open = find_open_sets(labels, edges);
   for (std::size_t p = 0; p < patches.size(); ++p) patches[p].shell = !open[p];
-  find_rims(mesh, edges, labels, patches);
   for (Patch& patch : patches) {
     std::vector<Triangle> triangles;
     triangles.reserve(patch.triangles.size());
@@ -127,45 +102,66 @@ void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels,
       triangles.push_back(mesh.triangles[t]);
       patch.box.include(triangle_box(mesh, t));
     }
-    patch.volume = patch.shell ? signed_volume(mesh.vertices, triangles) : volume_over_rim(mesh, patch);
+    if (patch.shell) patch.volume = signed_volume(mesh.vertices, triangles);
   }
 }
 
-// Returns the volume of all solids.
-double find_solids(const Mesh& mesh, const EdgeTable& edges, std::vector<Patch>& patches) {
-  double volume = 0;
+// The volume of all solids, and of those without fills.
+struct Volumes {
+  double all = 0, closed = 0;
+};
+
+// own: the number of triangles that are no fills.
+Volumes find_solids(const Mesh& mesh, std::size_t own, const EdgeTable& edges, std::vector<Patch>& patches) {
+  Volumes volumes;
   for (Patch& patch : patches) {
     patch.solid = patch.shell;
     patch.solid_box = patch.box;
-    if (patch.shell) volume += patch.volume;
+    patch.open = patch.triangles.back() >= own;
+    volumes.all += patch.volume;
+    if (!patch.open) volumes.closed += patch.volume;
   }
-  if (std::all_of(patches.begin(), patches.end(), [](const Patch& patch) { return patch.shell; })) return volume;
+  if (std::all_of(patches.begin(), patches.end(), [](const Patch& patch) { return patch.shell; })) return volumes;
   const Labels components = label_components(mesh, edges);
-  const std::vector<bool> open = find_open_sets(components, edges);
+  const std::vector<bool> unbalanced = find_open_sets(components, edges);
   const auto component_of = [&](const Patch& patch) { return components.of_triangle[patch.triangles[0]]; };
   std::vector<Aabb> boxes(components.count);
-  for (const Patch& patch : patches) boxes[component_of(patch)].include(patch.box);
-  std::vector<Triangle> others;  // of solids that are no shells
+  std::vector<bool> open(components.count, false);
+  for (const Patch& patch : patches) {
+    boxes[component_of(patch)].include(patch.box);
+    if (patch.open) open[component_of(patch)] = true;
+  }
+  std::vector<Triangle> all, closed;  // of solids that are no shells
   for (Patch& patch : patches) {
-    if (patch.shell || open[component_of(patch)]) continue;
+    if (patch.shell || unbalanced[component_of(patch)]) continue;
     patch.solid = true;
     patch.solid_box = boxes[component_of(patch)];
-    for (const std::uint32_t t : patch.triangles) others.push_back(mesh.triangles[t]);
+    patch.open = open[component_of(patch)];
+    for (const std::uint32_t t : patch.triangles) {
+      all.push_back(mesh.triangles[t]);
+      if (!patch.open) closed.push_back(mesh.triangles[t]);
+    }
   }
-  return volume + signed_volume(mesh.vertices, others);
+  volumes.all += signed_volume(mesh.vertices, all);
+  volumes.closed += signed_volume(mesh.vertices, closed);
+  return volumes;
 }
 
 // Measured steps of the boxes of two patches.
 constexpr std::uint64_t kBoxWork = 5;
 
-// How a patch lies to the other ones.
+// How a shell lies to the other ones.
 class Nesting {
  public:
-  Nesting(const Mesh& mesh, const Labels& labels, const std::vector<Patch>& patches, Budget* budget)
-      : mesh_(mesh), labels_(labels), patches_(patches), budget_(budget), on_rim_(mesh.triangles.size(), false) {
+  // own: the mesh without the fills of its holes, which come last.
+  Nesting(const Mesh& mesh, const Mesh& own, const EdgeTable& own_edges, const Labels& labels,
+          const std::vector<Patch>& patches, Budget* budget)
+      : mesh_(mesh), own_(own), labels_(labels), patches_(patches), budget_(budget), on_rim_(own.triangles.size(), false) {
     for (std::uint32_t p = 0; p < patches.size(); ++p) {
       if (patches[p].solid) solids_.push_back(p);
-      for (const std::uint32_t t : patches[p].on_rim) on_rim_[t] = true;
+    }
+    for (std::size_t e = 0; e < own_edges.size(); ++e) {
+      if (own_edges.half_edges(e).size() == 1) on_rim_[own_edges.half_edges(e)[0] / 3] = true;
     }
   }
 
@@ -179,21 +175,29 @@ class Nesting {
            !crosses_another(patch);
   }
 
+  // Whether the inside of an outward shell is that of others that face inward, so that winding numbers cancel.
+  bool is_cancelled(std::uint32_t patch) { return winding_around(patch, solids_) == -1 && !crosses_another(patch); }
+
   // Whether another patch ends near the boundary of this one, by the boxes of triangles. Both may then be pieces of one
   // surface.
   bool ends_near_another(std::uint32_t patch) {
-    const auto& ends = patches_[patch].on_rim;
-    return std::any_of(ends.begin(), ends.end(), [&](std::uint32_t t) {
-      return !visit_box(tree(), mesh_, triangle_box(mesh_, t),
-                        [&](std::uint32_t u) { return labels_.of_triangle[u] == patch || !on_rim_[u]; }, budget_);
+    return !std::all_of(patches_[patch].triangles.begin(), patches_[patch].triangles.end(), [&](std::uint32_t t) {
+      return !is_on_rim(t) || visit_box(own_tree(), own_, triangle_box(own_, t), [&](std::uint32_t u) {
+        return labels_.of_triangle[u] == patch || !is_on_rim(u);
+      }, budget_);
     });
   }
 
+  // Fills are not asked: they may be elsewhere.
   bool crosses_another(std::uint32_t patch) {
-    return crosses_others(mesh_, tree(), labels_, patch, patches_[patch].triangles, budget_);
+    std::vector<std::uint32_t> members = patches_[patch].triangles;
+    members.erase(std::lower_bound(members.begin(), members.end(), own_.triangles.size()), members.end());
+    return crosses_others(own_, own_tree(), labels_, patch, members, budget_);
   }
 
  private:
+  bool is_on_rim(std::uint32_t triangle) const { return triangle < on_rim_.size() && on_rim_[triangle]; }
+
   // The winding number of other solids around the shell; none: it lies on their surface. Only solids whose boxes contain it
   // count: those beside it may share all its faces. The box test avoids building the tree if there is none. solids:
   // ascending.
@@ -220,29 +224,32 @@ class Nesting {
     return bvh_;
   }
 
-  const Mesh& mesh_;
+  const Bvh& own_tree() {
+    if (own_bvh_.nodes.empty()) own_bvh_ = build_bvh(own_);
+    return own_bvh_;
+  }
+
+  const Mesh &mesh_, &own_;
   const Labels& labels_;
   const std::vector<Patch>& patches_;
   Budget* budget_;
   std::vector<std::uint32_t> solids_;  // ascending
   std::vector<bool> on_rim_;
-  Bvh bvh_;
+  Bvh bvh_, own_bvh_;
 };
-
-// If a patch that faces inward crosses others, winding numbers cancel, and the volume inside both would not be
-// material. An open patch is turned only in this case, and only if it is not a piece of a larger surface.
-bool has_to_turn(const Mesh& mesh, const std::vector<Patch>& patches, std::uint32_t p, Nesting& nesting) {
-  const Patch& patch = patches[p];
-  if (!(patch.volume < 0)) return false;
-  if (patch.shell) return !nesting.is_nested(p);
-  if (!patch.alone || is_flat(mesh, patch.triangles)) return false;
-  return !nesting.ends_near_another(p) && nesting.crosses_another(p);
-}
 
 std::vector<Patch> make_patches(const Labels& labels) {
   std::vector<Patch> patches;
   for (auto& members : labels.members()) patches.emplace_back().triangles = std::move(members);
   return patches;
+}
+
+// Whether triangles run each edge equally often in both directions.
+bool is_balanced(const EdgeTable& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.balance(e) != 0) return false;
+  }
+  return true;
 }
 
 bool is_closed(const EdgeTable& edges) {
@@ -282,27 +289,74 @@ void drop_surplus(Mesh& welded, std::optional<EdgeTable>& edges) {
   edges.emplace(welded.vertices.size(), welded.triangles);
 }
 
-// Turns the patches that face inward, with all that lies within them. volume: of all solids.
-void turn_outward(Mesh& mesh, double volume, const Labels& labels, std::vector<Patch>& patches, Budget* budget) {
-  if (volume < 0) {
-    for (Patch& patch : patches) flip(mesh, patch);
+// The mesh with its flat open parts doubled, because they are sheets, and its holes filled. Its own triangles come first.
+Mesh with_fills(const Mesh& welded, const EdgeTable& edges) {
+  Mesh filled = welded;
+  if (is_balanced(edges)) return filled;
+  double_triangles(filled, flat_parts(welded));
+  for (const BoundaryLoop& loop : boundary_loops(filled, EdgeTable(filled.vertices.size(), filled.triangles))) {
+    const std::vector<Triangle> fill = fan(loop);
+    filled.triangles.insert(filled.triangles.end(), fill.begin(), fill.end());
   }
-  Nesting nesting(mesh, labels, patches, budget);
-  std::vector<std::uint32_t> inside_out, shells;
-  for (std::uint32_t p = 0; p < patches.size(); ++p) {
-    if (!has_to_turn(mesh, patches, p, nesting)) continue;
-    inside_out.push_back(p);
-    if (patches[p].shell) shells.push_back(p);
-  }
-  for (std::uint32_t p = 0; !shells.empty() && p < patches.size(); ++p) {
-    const bool stays = patches[p].shell && !std::binary_search(shells.begin(), shells.end(), p);
-    if (stays && nesting.turns_along(p, shells)) inside_out.push_back(p);
-  }
-  for (const std::uint32_t p : inside_out) flip(mesh, patches[p]);
+  return filled;
 }
 
-// Whether it has become the wall of a cavity because what lies around it was turned.
-bool is_doubtful(const Patch& patch) { return patch.shell && patch.turned && patch.volume < 0; }
+// If a shell that faces inward crosses others, winding numbers cancel, and the volume inside both would not be material. An
+// open one is turned only in this case, and only if it is not a piece of a larger surface.
+bool has_to_turn(std::uint32_t p, const Patch& patch, Nesting& nesting) {
+  if (!(patch.volume < 0)) return false;
+  return patch.open ? nesting.crosses_another(p) && !nesting.ends_near_another(p) : !nesting.is_nested(p);
+}
+
+// Turns shells that face inward, with all that lies within them. Returns those that are doubtful.
+std::vector<std::uint32_t> turn_shells(Mesh& mesh, std::vector<Patch>& patches, Nesting& nesting) {
+  std::vector<std::uint32_t> turned, closed;
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    if (!has_to_turn(p, patches[p], nesting)) continue;
+    turned.push_back(p);
+    if (!patches[p].open) closed.push_back(p);
+  }
+  for (std::uint32_t p = 0; !closed.empty() && p < patches.size(); ++p) {
+    const bool stays = patches[p].shell && !std::binary_search(turned.begin(), turned.end(), p);
+    if (stays && nesting.turns_along(p, closed)) turned.push_back(p);
+  }
+  for (const std::uint32_t p : turned) flip(mesh, patches[p]);
+  const bool is_any_inward =
+      std::any_of(patches.begin(), patches.end(), [](const Patch& patch) { return patch.open && patch.volume < 0; });
+  std::vector<std::uint32_t> doubtful;
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    // It has become the wall of a cavity because what lies around it was turned, or it lies in an open part like that.
+    const bool is_wall = patches[p].turned && patches[p].volume < 0;
+    if (is_wall || (is_any_inward && patches[p].volume > 0 && nesting.is_cancelled(p))) doubtful.push_back(p);
+  }
+  return doubtful;
+}
+
+// Turns a mesh with one winding for each component outward.
+Doubt turned_outward(const Mesh& mesh, const EdgeTable& own_edges, Budget* budget) {
+  Doubt result{with_fills(mesh, own_edges), {}};
+  Mesh& filled = result.outward;
+  std::optional<EdgeTable> of_filled;
+  const bool is_closed = filled.triangles.size() == mesh.triangles.size();
+  const EdgeTable& edges = is_closed ? own_edges : of_filled.emplace(filled.vertices.size(), filled.triangles);
+  const Labels labels = label_manifold_patches(filled, edges);
+  std::vector<Patch> patches = make_patches(labels);
+  find_shells(filled, edges, labels, patches);
+  const Volumes volumes = find_solids(filled, mesh.triangles.size(), edges, patches);
+  const bool is_inside_out = volumes.all < 0 && volumes.closed < 0;
+  if (is_inside_out) {
+    for (Patch& patch : patches) flip(filled, patch);
+  }
+  if (is_inside_out || std::any_of(patches.begin(), patches.end(), [](const Patch& patch) { return patch.volume < 0; })) {
+    Nesting nesting(filled, mesh, own_edges, labels, patches, budget);
+    for (const std::uint32_t p : turn_shells(filled, patches, nesting)) {
+      std::vector<std::uint32_t>& shell = result.shells.emplace_back(patches[p].triangles);
+      shell.erase(std::lower_bound(shell.begin(), shell.end(), mesh.triangles.size()), shell.end());
+    }
+  }
+  filled.triangles.resize(mesh.triangles.size());
+  return result;
+}
 
 }  // namespace
 
@@ -310,34 +364,16 @@ Mesh orient(const Mesh& mesh, Budget* budget, bool* doubtful) {
   Mesh result = weld(mesh);
   std::optional<EdgeTable> edges(std::in_place, result.vertices.size(), result.triangles);
   drop_surplus(result, edges);
-  const Labels labels = label_manifold_patches(result, *edges);
-  std::vector<Patch> patches = make_patches(labels);
-  if (repair_patches(result, *edges, patches)) edges.emplace(result.vertices.size(), result.triangles);
-  find_shells(result, *edges, labels, patches);
-  Mesh outward = result;
-  turn_outward(outward, find_solids(result, *edges, patches), labels, patches, budget);
-  if (std::none_of(patches.begin(), patches.end(), is_doubtful)) return outward;
+  if (repair_patches(result, *edges)) edges.emplace(result.vertices.size(), result.triangles);
+  Doubt turned = turned_outward(result, *edges, budget);
+  if (turned.shells.empty()) return std::move(turned.outward);
   if (doubtful != nullptr) *doubtful = true;
   return result;
 }
 
 std::optional<Doubt> find_doubt(const Mesh& welded, Budget* budget) {
-  const EdgeTable edges(welded.vertices.size(), welded.triangles);
-  const Labels labels = label_manifold_patches(welded, edges);
-  std::vector<Patch> patches = make_patches(labels);
-  if (patches.size() == 1) return std::nullopt;
-  find_shells(welded, edges, labels, patches);
-  const double volume = find_solids(welded, edges, patches);
-  const auto a_shell_faces = [&](double way) {
-    return std::any_of(patches.begin(), patches.end(), [&](const Patch& p) { return p.shell && way * p.volume > 0; });
-  };
-  if (!a_shell_faces(1) || !(volume < 0 || a_shell_faces(-1))) return std::nullopt;
-  Doubt doubt{welded, {}};
-  turn_outward(doubt.outward, volume, labels, patches, budget);
-  for (const Patch& patch : patches) {
-    if (is_doubtful(patch)) doubt.shells.push_back(patch.triangles);
-  }
-  return doubt.shells.empty() ? std::nullopt : std::optional(std::move(doubt));
+  Doubt turned = turned_outward(welded, EdgeTable(welded.vertices.size(), welded.triangles), budget);
+  return turned.shells.empty() ? std::nullopt : std::optional(std::move(turned));
 }
 
 std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const Poll& poll) {

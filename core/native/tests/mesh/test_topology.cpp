@@ -133,6 +133,7 @@ void inside_out_box_in_a_notch() {
   CHECK(measure_topology(orient(mesh)).volume == 3 + 4.5 + 0.125);
 }
 
+// It has no outside: it may be turned as a whole.
 void moebius_band_stays() {
   Mesh band;
   const std::uint32_t n = 8;
@@ -149,7 +150,8 @@ void moebius_band_stays() {
     band.triangles.push_back({a, b, c});
     band.triangles.push_back({b, d, c});
   }
-  CHECK(orient(band).triangles == weld(band).triangles);
+  const Mesh result = orient(band);
+  CHECK(result.triangles == weld(band).triangles || result.triangles == weld(reversed(band)).triangles);
 }
 
 void components_and_transforms() {
