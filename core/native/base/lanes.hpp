@@ -20,6 +20,7 @@
 #define SATCHECK_FUSED
 #endif
 #define SATCHECK_INLINE inline __attribute__((always_inline))
+#define SATCHECK_NOINLINE __attribute__((noinline))
 
 // A warning about how Lanes are passed. It does not apply, because all functions are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -111,6 +112,7 @@ class ManyLaneBits {
 #define SATCHECK_WIDE
 #define SATCHECK_FUSED
 #define SATCHECK_INLINE inline
+#define SATCHECK_NOINLINE
 
 namespace satcheck {
 
