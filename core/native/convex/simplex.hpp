@@ -12,6 +12,10 @@ struct Simplex {
   double weight[4] = {1, 0, 0, 0};
   int count = 0;
 
+  Simplex() = default;
+  // One point, with copies of it in the places of the others, which takes less time than to clear them.
+  explicit Simplex(const SupportPoint& point) : vertex{point, point, point, point}, count(1) {}
+
   void add(const SupportPoint& point) { vertex[count++] = point; }
   bool contains(const SupportPoint& point) const {
     for (int i = 0; i < count; ++i) {
