@@ -162,7 +162,7 @@ void polish(const MinkowskiDifference& m, CoreAnswer& core) {
 // coordinates, curved cores at their exact pose.
 double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
   if (m.curved) return m.support_error() + origin_error(m.a, pose_a) + origin_error(m.b, pose_b);
-  return proof_noise(m.scale, m.a, pose_a, m.b, pose_b);
+  return satcheck::proof_noise(m.scale, placement_error(m.a, pose_a), placement_error(m.b, pose_b));
 }
 
 void write_stage(const CoreAnswer& core, PairResult& result) {
