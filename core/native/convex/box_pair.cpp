@@ -58,8 +58,8 @@ SATCHECK_INLINE PairFeature feature_of(int kind, int i, int k, bool swapped) {
                                   {Feature::face_b, Feature::face_a, Feature::edge_edge, Feature::none}};
   static constexpr std::uint32_t none = Shape::kNoIndex, hides[4][2] = {{0, none}, {none, 0}, {0, 0}, {none, none}};
   static_assert(none == ~std::uint32_t{0});
-  const std::uint32_t index[2] = {static_cast<std::uint32_t>(i) | hides[kind][0], static_cast<std::uint32_t>(k) | hides[kind][1]};
-  return {seen[swapped][kind], index[swapped], index[!swapped]};
+  const std::uint32_t of_a = static_cast<std::uint32_t>(i) | hides[kind][0], of_b = static_cast<std::uint32_t>(k) | hides[kind][1];
+  return {seen[swapped][kind], swapped ? of_b : of_a, swapped ? of_a : of_b};
 }
 
 struct ContactPoints {
@@ -184,7 +184,7 @@ SATCHECK_WIDE PairResult depth_of_boxes(const Shape& a, const Pose& pose_a, cons
   const LaneMat3 to_world = transposed(lane_mat3(ordered.pose_a->rotation));
   const Lanes normal = combine(to_world.row, least.axis);
   const Lanes origin = three(ordered.pose_a->translation);
-  const Vec3 witness[2] = {vec3(combine(to_world.row, contact.on_a) + origin), vec3(combine(to_world.row, contact.on_b) + origin)};
+  const Vec3 on_a = vec3(combine(to_world.row, contact.on_a) + origin), on_b = vec3(combine(to_world.row, contact.on_b) + origin);
   return {.outcome = Outcome::penetrating,
           .method = Method::sat,
           .feature = feature.feature,
@@ -195,8 +195,8 @@ SATCHECK_WIDE PairResult depth_of_boxes(const Shape& a, const Pose& pose_a, cons
           .lower = -least.penetration - noise,
           .upper = -least.lower + noise,
           .normal = vec3(all_lanes(0) + normal * (ordered.swapped ? -1.0 : 1.0)),  // no negative zeros
-          .witness_a = witness[ordered.swapped],
-          .witness_b = witness[!ordered.swapped],
+          .witness_a = ordered.swapped ? on_b : on_a,
+          .witness_b = ordered.swapped ? on_a : on_b,
           .axes_tested = 15};
 }
 
