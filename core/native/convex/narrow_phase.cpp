@@ -48,8 +48,8 @@ bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
 CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, double lower_bound) {
   CoreAnswer answer;
   answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
-  const double reached = std::fmax(lower_bound, norm(answer.witness.a - answer.witness.b));
-  answer.lower = -std::fmax(g.upper, reached);
+  const double reached = larger(lower_bound, norm(answer.witness.a - answer.witness.b));
+  answer.lower = -larger(g.upper, reached);
   answer.upper = -lower_bound;
   answer.value = -std::clamp(g.upper, lower_bound, reached);
   answer.axis = g.upper > 0 ? g.v * (-1 / g.upper) : -g.axis;
@@ -107,7 +107,7 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, double eno
   switch (e.status) {
     case EpaResult::Status::depth:
     case EpaResult::Status::bounded:
-      answer.lower = std::fmax(e.lower, -g.upper);  // the distance is at most GJK's upper bound
+      answer.lower = larger(e.lower, -g.upper);  // the distance is at most GJK's upper bound
       answer.has_axis = true;
       if (!(e.lower > enough)) answer.witness = overlap_witness(m, e);
       return answer;
@@ -270,7 +270,7 @@ CoreAnswer from_sat(const MinkowskiDifference& m, const Pose& pose_a, const Pose
   const auto gap = [&](double lower_bound) {
     const GjkResult g = gjk(m);
     result.gjk_iterations += g.iterations;
-    return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
+    return from_gjk_distance(m, g, larger(g.lower, lower_bound));
   };
   const bool boxes = are_boxes(m);
   if (boxes && query == Query::distance) {
@@ -321,7 +321,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
       return result;
     }
   }
-  const double of_cores = query == Query::overlap ? 0 : std::fmax(enough + noise - margin, 0);
+  const double of_cores = query == Query::overlap ? 0 : larger(enough + noise - margin, 0);
   CoreAnswer core = by_sat ? from_sat(m, pose_a, pose_b, query, noise, result) : from_gjk(m, of_cores, result);
   if (core.lower > of_cores) query = Query::overlap;
   write_stage(core, result);
