@@ -33,14 +33,13 @@ ClosestPoint closest_point(const Simplex& simplex);
 // vertices of weight 0 are dropped.
 void weigh_enclosed_origin(Simplex& simplex);
 
-// Keeps only the vertices that carry the closest point. Their weights are still shares. Without a branch, because a
-// branch would be unpredictable.
+// Keeps only the vertices that carry the closest point. Their weights are still shares.
 SATCHECK_INLINE void keep(Simplex& s, const ClosestPoint& closest) {
   int count = 0;
   for (int i = 0; i < 4; ++i) {
-    s.vertex[count] = s.vertex[i];
-    s.weight[count] = closest.share[i];
-    count += closest.carriers >> i & 1;
+    if (!(closest.carriers >> i & 1)) continue;
+    if (count != i) s.vertex[count] = s.vertex[i];
+    s.weight[count++] = closest.share[i];
   }
   s.count = count;
 }
