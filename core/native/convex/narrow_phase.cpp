@@ -97,7 +97,8 @@ Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
 // enough: no figures are needed of cores that overlap by more.
 CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, double enough, PairResult& result) {
   // Near contact, GJK's simplex on curved shapes is a sliver, and its faces prove nothing.
-  const EpaResult e = epa(m, m.curved ? Simplex{} : g.simplex, enough);
+  static const Simplex none;
+  const EpaResult e = epa(m, m.curved ? none : g.simplex, enough);
   result.epa_iterations += e.iterations;
   CoreAnswer answer;
   answer.method = Method::epa;
