@@ -249,21 +249,6 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
   if (result.has_distance) follow_outcome(result);
 }
 
-// Decides exactly what float64 left open. Without an end of that, the bounds of float64 stand.
-void settle(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt, Vec3 axis,
-            PairResult& result) {
-  Budget budget = Budget::that_stops(kMostExactWork);
-  try {
-    if (a.is_polytope() && b.is_polytope()) {
-      settle_exactly(a, pose_a, b, pose_b, in_doubt, axis, budget, result);
-    } else {
-      settle_grown(a, pose_a, b, pose_b, budget, result);
-    }
-  } catch (const BudgetSpent&) {
-    if (in_doubt && result.method != Method::exact) result.outcome = Outcome::undecided;
-  }
-}
-
 // A separating axis does not give the distance: GJK measures it. Most boxes whose distance is needed are apart, and GJK
 // comes first.
 CoreAnswer from_sat(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b, Query query, double& noise,
@@ -339,7 +324,18 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
-  if (polytopes ? in_doubt || too_wide : in_doubt && !m.curved) settle(a, pose_a, b, pose_b, in_doubt, core.axis, result);
+  if (polytopes ? in_doubt || too_wide : in_doubt && !m.curved) {
+    Budget budget = Budget::that_stops(kMostExactWork);
+    try {
+      if (polytopes) {
+        settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, budget, result);
+      } else {
+        settle_grown(a, pose_a, b, pose_b, budget, result);
+      }
+    } catch (const BudgetSpent&) {  // the bounds of float64 stand
+      if (in_doubt && result.method != Method::exact) result.outcome = Outcome::undecided;
+    }
+  }
   if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
   return result;
 }
