@@ -116,11 +116,11 @@ SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m, const Po
   LeastOverlap least = least_overlap(boxes);
   BoxContact found;
   found.noise = proof_noise(boxes.scale, placement_error(a, pose_a), placement_error(b, pose_b)) + error_of(a) + error_of(b);
-  found.sat.axis = vec3(least.axis);
-  if (a.kind != ShapeKind::box) found.sat.axis = a.box->rotation * found.sat.axis;
+  Vec3 axis = vec3(least.axis);
+  if (a.kind != ShapeKind::box) axis = a.box->rotation * axis;
   if (a.kind != ShapeKind::box || b.kind != ShapeKind::box) {
     // The vertices of the hulls give the figure its last digits.
-    least.penetration = dot(found.sat.axis, m.support(found.sat.axis).w);
+    least.penetration = dot(axis, m.support(axis).w);
   }
   const ContactPoints contact = contact_points(boxes, least);
   found.witness = {vec3(contact.on_a), vec3(contact.on_b)};
@@ -129,12 +129,7 @@ SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m, const Po
   }
   found.sole = contact.sole;
   const PairFeature feature = feature_of(least.kind, least.i, least.k, false);
-  found.sat.penetration = least.penetration;
-  found.sat.lower = least.lower;
-  found.sat.axes_tested = 15;
-  found.sat.feature = feature.feature;
-  found.sat.index_a = feature.index_a;
-  found.sat.index_b = feature.index_b;
+  found.sat = {least.penetration, least.lower, axis, feature.feature, feature.index_a, feature.index_b, 15};
   return found;
 }
 

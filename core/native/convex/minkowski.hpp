@@ -51,10 +51,11 @@ Vec3 offset_between(const Shape& a, const Pose& pose_a, const Shape& b, const Po
 // A's frame, with the recentred origin of a hull: p_world = placement * p_core.
 Pose core_placement(const Shape& shape, const Pose& pose);
 
-// The rounding error that a proof in float64 has to exceed: the largest distance that the rounding of a pose moves a vertex, plus the largest distance that the rounding of the
-// pair's relative pose moves its origin. Each term of a rotated coordinate is rounded 3 times, and the terms sum up to
-// the reach at most, which is sqrt(3) times the largest coordinate. As a vector this is 9 times that coordinate. The
-// vertex is rotated once, and its origin once more. Adding the translation rounds the sum. Rounded up.
+// The rounding error that a proof in float64 has to exceed: the largest distance that the rounding of a pose moves a
+// vertex, plus the largest distance that the rounding of the pair's relative pose moves its origin. Each term of a
+// rotated coordinate is rounded 3 times, and the terms sum up to the reach at most, which is sqrt(3) times the largest
+// coordinate. As a vector this is 9 times that coordinate. The vertex is rotated once, and its origin once more. Adding
+// the translation rounds the sum. Rounded up.
 inline double placement_error(const Shape& shape, const Pose& pose) {
   if (pose.translation == Vec3{} && pose.rotation == Mat3{}) return 0;
   return kUnitRoundoff * (norm(pose.translation) + 20 * (max_abs(shape.origin) + shape.extent));
