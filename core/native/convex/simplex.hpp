@@ -23,8 +23,16 @@ struct Simplex {
     }
     return false;
   }
-  Vec3 witness_a() const;
-  Vec3 witness_b() const;
+  Vec3 witness_a() const {
+    Vec3 p;
+    for (int i = 0; i < count; ++i) p = p + vertex[i].a * weight[i];
+    return p;
+  }
+  Vec3 witness_b() const {
+    Vec3 p;
+    for (int i = 0; i < count; ++i) p = p + (vertex[i].a - vertex[i].w) * weight[i];
+    return p;
+  }
 };
 
 ClosestPoint closest_point(const Simplex& simplex);
