@@ -20,6 +20,7 @@
 #define SATCHECK_FUSED
 #endif
 #define SATCHECK_INLINE inline __attribute__((always_inline))
+#define SATCHECK_NOINLINE __attribute__((noinline))
 
 // A warning about how Lanes are passed. It does not apply, because all functions are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -65,12 +66,7 @@ SATCHECK_INLINE Lanes shuffle(Lanes u, Lanes v) {
 SATCHECK_INLINE Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
 
 SATCHECK_INLINE Lanes square_root(Lanes v) {
-#if defined(__SSE2__)
-  const __m128d low = _mm_sqrt_pd(__m128d{v[0], v[1]}), high = _mm_sqrt_pd(__m128d{v[2], v[3]});
-  return Lanes{low[0], low[1], high[0], high[1]};
-#else
   return Lanes{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
-#endif
 }
 
 SATCHECK_INLINE Lanes abs(Lanes v) { return (Lanes)((LaneMask)v & ~(LaneMask)Lanes{-0.0, -0.0, -0.0, -0.0}); }
@@ -111,6 +107,7 @@ class ManyLaneBits {
 #define SATCHECK_WIDE
 #define SATCHECK_FUSED
 #define SATCHECK_INLINE inline
+#define SATCHECK_NOINLINE
 
 namespace satcheck {
 

@@ -30,7 +30,7 @@ SATCHECK_INLINE double least_of_three(Lanes v) { return smaller(smaller(v[0], v[
 SATCHECK_INLINE Lanes combine(const Lanes (&of)[3], Lanes by) { return of[0] * by[0] + of[1] * by[1] + of[2] * by[2]; }
 SATCHECK_INLINE Lanes cross(Lanes u, Lanes v) { return next_lane(u) * last_lane(v) - last_lane(u) * next_lane(v); }
 SATCHECK_INLINE Lanes unit_lane(int i) {
-  constexpr double units[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  static constexpr double units[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   return load_lanes(units[i]);
 }
 

@@ -20,10 +20,8 @@ struct OrderedBoxes {
 };
 
 SATCHECK_INLINE OrderedBoxes in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  const Shape* const shapes[2] = {&a, &b};
-  const Pose* const poses[2] = {&pose_a, &pose_b};
   const bool swapped = !comes_before(a, pose_a, b, pose_b);
-  return {shapes[swapped], shapes[!swapped], poses[swapped], poses[!swapped], swapped};
+  return {swapped ? &b : &a, swapped ? &a : &b, swapped ? &pose_b : &pose_a, swapped ? &pose_a : &pose_b, swapped};
 }
 
 // A hull that is a box has a frame of its own, turned against that of the shape.
@@ -49,10 +47,6 @@ SATCHECK_INLINE PlacedBoxes placed_boxes(const OrderedBoxes& o) {
   return placed_boxes(o.pose_a->rotation, o.a->size, o.pose_b->rotation, o.b->size, between, o.a->extent + o.b->extent);
 }
 
-SATCHECK_INLINE double proof_noise(double scale, const OrderedBoxes& o) {
-  return proof_noise(scale, *o.a, *o.pose_a, *o.b, *o.pose_b);
-}
-
 // The feature of the axis, by LeastOverlap::kind; 3: none. A and B are in the given order.
 struct PairFeature {
   Feature feature;
@@ -60,12 +54,12 @@ struct PairFeature {
 };
 
 SATCHECK_INLINE PairFeature feature_of(int kind, int i, int k, bool swapped) {
-  constexpr Feature seen[2][4] = {{Feature::face_a, Feature::face_b, Feature::edge_edge, Feature::none},
+  static constexpr Feature seen[2][4] = {{Feature::face_a, Feature::face_b, Feature::edge_edge, Feature::none},
                                   {Feature::face_b, Feature::face_a, Feature::edge_edge, Feature::none}};
-  constexpr std::uint32_t none = Shape::kNoIndex, hides[4][2] = {{0, none}, {none, 0}, {0, 0}, {none, none}};
+  static constexpr std::uint32_t none = Shape::kNoIndex, hides[4][2] = {{0, none}, {none, 0}, {0, 0}, {none, none}};
   static_assert(none == ~std::uint32_t{0});
-  const std::uint32_t index[2] = {static_cast<std::uint32_t>(i) | hides[kind][0], static_cast<std::uint32_t>(k) | hides[kind][1]};
-  return {seen[swapped][kind], index[swapped], index[!swapped]};
+  const std::uint32_t of_a = static_cast<std::uint32_t>(i) | hides[kind][0], of_b = static_cast<std::uint32_t>(k) | hides[kind][1];
+  return {seen[swapped][kind], swapped ? of_b : of_a, swapped ? of_a : of_b};
 }
 
 struct ContactPoints {
@@ -88,7 +82,7 @@ SATCHECK_INLINE ContactPoints contact_points(const PlacedBoxes& boxes, const Lea
   const Lanes n = least.axis, against = -least.axis_in_b, way = n * least.penetration;
   const bool edges = least.kind == 2;
   // For edges, their middles, which are 0 along the edge.
-  constexpr double keeps[4][4] = {{0, 1, 1, 0}, {1, 0, 1, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
+  static constexpr double keeps[4][4] = {{0, 1, 1, 0}, {1, 0, 1, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
   const Lanes of_a = with_sign_of(n, boxes.half_a) * load_lanes(keeps[edges ? least.i : 3]);
   const Lanes in_b = with_sign_of(against, boxes.half_b) * load_lanes(keeps[edges ? least.k : 3]);
   const Lanes of_b = combine(boxes.a_in_b.row, in_b) + boxes.offset;
@@ -103,7 +97,7 @@ SATCHECK_INLINE ContactPoints contact_points(const PlacedBoxes& boxes, const Lea
   const LaneMask beside = (abs(on_a) > boxes.half_a + load_lanes(kSlackA[least.kind][least.i])) |
                           (abs(placed_in_b) > boxes.half_b + load_lanes(kSlackB[least.kind][least.k]));
   // For a face, a single corner of the other box is nearest.
-  constexpr double least_slope[3][2] = {{0, kSameFeature}, {kSameFeature, 0}, {0, 0}};
+  static constexpr double least_slope[3][2] = {{0, kSameFeature}, {kSameFeature, 0}, {0, 0}};
   const LaneMask level = (abs(n) < all_lanes(least_slope[least.kind][0])) | (abs(against) < all_lanes(least_slope[least.kind][1]));
   const bool crosses = !edges | (least.inverse_sine < kCrossing), none = bits_of_three(beside | level) == 0;
   return {on_a, on_b, static_cast<bool>(crosses & none)};
@@ -121,12 +115,12 @@ SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m, const Po
                                          max_abs(half_a) + max_abs(half_b));
   LeastOverlap least = least_overlap(boxes);
   BoxContact found;
-  found.noise = proof_noise(boxes.scale, a, pose_a, b, pose_b) + error_of(a) + error_of(b);
-  found.sat.axis = vec3(least.axis);
-  if (a.kind != ShapeKind::box) found.sat.axis = a.box->rotation * found.sat.axis;
+  found.noise = proof_noise(boxes.scale, placement_error(a, pose_a), placement_error(b, pose_b)) + error_of(a) + error_of(b);
+  Vec3 axis = vec3(least.axis);
+  if (a.kind != ShapeKind::box) axis = a.box->rotation * axis;
   if (a.kind != ShapeKind::box || b.kind != ShapeKind::box) {
     // The vertices of the hulls give the figure its last digits.
-    least.penetration = dot(found.sat.axis, m.support(found.sat.axis).w);
+    least.penetration = dot(axis, m.support(axis).w);
   }
   const ContactPoints contact = contact_points(boxes, least);
   found.witness = {vec3(contact.on_a), vec3(contact.on_b)};
@@ -135,21 +129,17 @@ SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m, const Po
   }
   found.sole = contact.sole;
   const PairFeature feature = feature_of(least.kind, least.i, least.k, false);
-  found.sat.penetration = least.penetration;
-  found.sat.lower = least.lower;
-  found.sat.axes_tested = 15;
-  found.sat.feature = feature.feature;
-  found.sat.index_a = feature.index_a;
-  found.sat.index_b = feature.index_b;
+  found.sat = {least.penetration, least.lower, axis, feature.feature, feature.index_a, feature.index_b, 15};
   return found;
 }
 
 SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const OrderedBoxes ordered = in_order(a, pose_a, b, pose_b);
+  const double error_a = placement_error(*ordered.a, *ordered.pose_a), error_b = placement_error(*ordered.b, *ordered.pose_b);
   const PlacedBoxes boxes = placed_boxes(ordered);
   BoxAxes axes;
   measure_faces(boxes, axes);
-  const double noise = proof_noise(boxes.scale, ordered);
+  const double noise = proof_noise(boxes.scale, error_a, error_b);
   const Lanes some = all_lanes(noise), none = all_lanes(-noise), limit = all_lanes(noise * noise);
   // Four bits for each triple of axes: axes along which the boxes are apart by more than noise, and axes along which
   // they may be.
@@ -164,7 +154,7 @@ SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, co
     open = open | (overlap < short_of);
   }
   const int first = std::countr_zero(static_cast<unsigned>(apart) | 1u << 20);
-  constexpr int kinds[6] = {0, 1, 2, 2, 2, 3};
+  static constexpr int kinds[6] = {0, 1, 2, 2, 2, 3};
   const int triple = first >> 2, k = first & 3, kind = kinds[triple];
   const PairFeature feature = feature_of(kind, kind == 2 ? triple - 2 : k, k, ordered.swapped);
   PairResult result;
@@ -179,16 +169,17 @@ SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, co
 
 SATCHECK_WIDE PairResult depth_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const OrderedBoxes ordered = in_order(a, pose_a, b, pose_b);
+  const double error_a = placement_error(*ordered.a, *ordered.pose_a), error_b = placement_error(*ordered.b, *ordered.pose_b);
   const PlacedBoxes boxes = placed_boxes(ordered);
   const LeastOverlap least = least_overlap(boxes);
   const ContactPoints contact = contact_points(boxes, least);
-  const double noise = proof_noise(boxes.scale, ordered);
+  const double noise = proof_noise(boxes.scale, error_a, error_b);
   if (!(least.lower > noise) || !(noise <= kWidestInterval * boxes.scale) || !contact.sole) return {};
   const PairFeature feature = feature_of(least.kind, least.i, least.k, ordered.swapped);
   const LaneMat3 to_world = transposed(lane_mat3(ordered.pose_a->rotation));
   const Lanes normal = combine(to_world.row, least.axis);
   const Lanes origin = three(ordered.pose_a->translation);
-  const Vec3 witness[2] = {vec3(combine(to_world.row, contact.on_a) + origin), vec3(combine(to_world.row, contact.on_b) + origin)};
+  const Vec3 on_a = vec3(combine(to_world.row, contact.on_a) + origin), on_b = vec3(combine(to_world.row, contact.on_b) + origin);
   return {.outcome = Outcome::penetrating,
           .method = Method::sat,
           .feature = feature.feature,
@@ -199,8 +190,8 @@ SATCHECK_WIDE PairResult depth_of_boxes(const Shape& a, const Pose& pose_a, cons
           .lower = -least.penetration - noise,
           .upper = -least.lower + noise,
           .normal = vec3(all_lanes(0) + normal * (ordered.swapped ? -1.0 : 1.0)),  // no negative zeros
-          .witness_a = witness[ordered.swapped],
-          .witness_b = witness[!ordered.swapped],
+          .witness_a = ordered.swapped ? on_b : on_a,
+          .witness_b = ordered.swapped ? on_a : on_b,
           .axes_tested = 15};
 }
 

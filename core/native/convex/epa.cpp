@@ -110,11 +110,16 @@ double weigh(Simplex& face, Vec3 foot) {
 // The facet with the weights of the origin's projection onto its plane, clamped to the facet.
 Simplex weighted_facet(const ExpandingPolytope& polytope, HalfEdge f) {
   const Vec3 foot = polytope.normal(f) * polytope.distance(f);
-  Simplex facet;
-  for (int corner = 0; corner < 3; ++corner) facet.add(polytope.vertex(f, corner));
-  Simplex other = facet;
+  const auto corners = [&] {
+    Simplex s;
+    for (int corner = 0; corner < 3; ++corner) s.add(polytope.vertex(f, corner));
+    return s;
+  };
+  Simplex facet = corners();
   const double miss = weigh(facet, foot);
-  if (facet.count < 3 && turn_to_other_half(other) && weigh(other, foot) < miss) return other;
+  if (facet.count == 3) return facet;
+  Simplex other = corners();
+  if (turn_to_other_half(other) && weigh(other, foot) < miss) facet = other;
   return facet;
 }
 

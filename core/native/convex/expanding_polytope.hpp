@@ -31,7 +31,7 @@ class ExpandingPolytope {
  public:
   // The polytope of the calling thread. Not inlined, because a loop would otherwise look up the thread-local address
   // again and again.
-  static ExpandingPolytope& of_thread();
+  SATCHECK_NOINLINE static ExpandingPolytope& of_thread();
 
   // Prepares for the next query and keeps the buffers.
   void clear(const MinkowskiDifference& difference) {
@@ -104,7 +104,7 @@ class ExpandingPolytope {
   void make_room() {
     if (std::max(2 * blocks_used_ + 2, vertices_used_ + 4) > room_) grow();
   }
-  void grow();
+  SATCHECK_NOINLINE void grow();
 
   SATCHECK_INLINE FourPoints gather(const std::uint32_t* index) const {
     const Vec3 &a = vertices_[index[0]].w, &b = vertices_[index[1]].w, &c = vertices_[index[2]].w, &d = vertices_[index[3]].w;

@@ -27,12 +27,8 @@ Vec3 first_direction(const MinkowskiDifference& m) {
 
 SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m) {
   const double noise = m.support_error();
-  GjkResult result;
-  result.lower = -INFINITY;
+  GjkResult result(m.support(first_direction(m)));
   Simplex& simplex = result.simplex;
-  simplex.add(m.support(first_direction(m)));
-  result.v = simplex.vertex[0].w;
-  result.upper = norm(result.v);
   const double gap = m.curved ? kCurvedGap * m.scale : 4 * kUnitRoundoff * m.scale;
   while (result.upper > noise) {
     const SupportPoint w = m.support(-result.v);

@@ -13,11 +13,13 @@ struct GjkResult {
   };
   Status status = Status::contact;
   Simplex simplex;    // carries v; four vertices when it encloses
-  Vec3 v;             // closest point of A - B to the origin so far
-  double upper = 0;   // |v|: the distance is at most this
-  double lower = 0;   // the distance is at least this: the best support value along a queried axis
-  Vec3 axis;          // unit; lower = min over A - B of axis . w
+  Vec3 v;                    // closest point of A - B to the origin so far
+  double upper;              // |v|: the distance is at most this
+  double lower = -INFINITY;  // the distance is at least this: the best support value along a queried axis
+  Vec3 axis;                 // unit; lower = min over A - B of axis . w
   int iterations = 0;
+
+  explicit GjkResult(const SupportPoint& first) : simplex(first), v(first.w), upper(norm(first.w)) {}
 };
 
 // Continues until the bounds meet up to rounding, a support point repeats, or a step does not come closer. No better

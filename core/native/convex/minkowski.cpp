@@ -12,7 +12,8 @@ bool has_only_vertices(const Shape& shape) {
 
 // (b - a) + (d - c) with one rounding of the result, even if large terms cancel.
 double sum_of_differences(double a, double b, double c, double d) {
-  return static_cast<double>(exact_sum(b, -a) + exact_sum(d, -c));
+  const DoubleDouble p = exact_sum(b, -a), q = exact_sum(d, -c), sum = exact_sum(p.high, q.high);
+  return sum.high + (sum.low + (p.low + q.low));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace satcheck {
 struct SupportPoint {
   Vec3 w;  // a - b
   Vec3 a;  // witness point on A, frame of A; the one on B is a - w
-  std::uint32_t index_a = 0, index_b = 0;
+  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
 
   // The same vertex pair; curved shapes have no indices and compare by position.
   bool same_as(const SupportPoint& other) const {
@@ -51,12 +51,13 @@ Vec3 offset_between(const Shape& a, const Pose& pose_a, const Shape& b, const Po
 // A's frame, with the recentred origin of a hull: p_world = placement * p_core.
 Pose core_placement(const Shape& shape, const Pose& pose);
 
-// The rounding error that a proof in float64 has to exceed: the largest distance that the rounding of a pose moves a vertex, plus the largest distance that the rounding of the
-// pair's relative pose moves its origin. Each term of a rotated coordinate is rounded 3 times, and the terms sum up to
-// the reach at most, which is sqrt(3) times the largest coordinate. As a vector this is 9 times that coordinate. The
-// vertex is rotated once, and its origin once more. Adding the translation rounds the sum. Rounded up.
+// The rounding error that a proof in float64 has to exceed: the largest distance that the rounding of a pose moves a
+// vertex, plus the largest distance that the rounding of the pair's relative pose moves its origin. Each term of a
+// rotated coordinate is rounded 3 times, and the terms sum up to the reach at most, which is sqrt(3) times the largest
+// coordinate. As a vector this is 9 times that coordinate. The vertex is rotated once, and its origin once more. Adding
+// the translation rounds the sum. Rounded up.
 inline double placement_error(const Shape& shape, const Pose& pose) {
-  if (pose.rotation == Mat3{} && pose.translation == Vec3{}) return 0;
+  if (pose.translation == Vec3{} && pose.rotation == Mat3{}) return 0;
   return kUnitRoundoff * (norm(pose.translation) + 20 * (max_abs(shape.origin) + shape.extent));
 }
 
@@ -69,9 +70,10 @@ inline double origin_error(const Shape& shape, const Pose& pose) {
 // The error of lengths whose squares underflow. It matters only for points this close to each other.
 inline constexpr double kSquaresUnderflow = 1e-150;
 
-// The noise for cores with vertices, which are judged at their rounded world coordinates. `scale`: of A - B.
-inline double proof_noise(double scale, const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  return kSupportError * scale + placement_error(a, pose_a) + placement_error(b, pose_b) + kSquaresUnderflow;
+// The noise for cores with vertices, which are judged at their rounded world coordinates. `scale`: of A - B; the errors:
+// of both placements.
+inline double proof_noise(double scale, double error_a, double error_b) {
+  return kSupportError * scale + error_a + error_b + kSquaresUnderflow;
 }
 
 }  // namespace satcheck

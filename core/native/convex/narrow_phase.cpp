@@ -48,8 +48,8 @@ bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
 CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, double lower_bound) {
   CoreAnswer answer;
   answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
-  const double reached = std::fmax(lower_bound, norm(answer.witness.a - answer.witness.b));
-  answer.lower = -std::fmax(g.upper, reached);
+  const double reached = larger(lower_bound, norm(answer.witness.a - answer.witness.b));
+  answer.lower = -larger(g.upper, reached);
   answer.upper = -lower_bound;
   answer.value = -std::clamp(g.upper, lower_bound, reached);
   answer.axis = g.upper > 0 ? g.v * (-1 / g.upper) : -g.axis;
@@ -97,7 +97,8 @@ Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
 // enough: no figures are needed of cores that overlap by more.
 CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, double enough, PairResult& result) {
   // Near contact, GJK's simplex on curved shapes is a sliver, and its faces prove nothing.
-  const EpaResult e = epa(m, m.curved ? Simplex{} : g.simplex, enough);
+  static const Simplex none;
+  const EpaResult e = epa(m, m.curved ? none : g.simplex, enough);
   result.epa_iterations += e.iterations;
   CoreAnswer answer;
   answer.method = Method::epa;
@@ -107,7 +108,7 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, double eno
   switch (e.status) {
     case EpaResult::Status::depth:
     case EpaResult::Status::bounded:
-      answer.lower = std::fmax(e.lower, -g.upper);  // the distance is at most GJK's upper bound
+      answer.lower = larger(e.lower, -g.upper);  // the distance is at most GJK's upper bound
       answer.has_axis = true;
       if (!(e.lower > enough)) answer.witness = overlap_witness(m, e);
       return answer;
@@ -162,7 +163,7 @@ void polish(const MinkowskiDifference& m, CoreAnswer& core) {
 // coordinates, curved cores at their exact pose.
 double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
   if (m.curved) return m.support_error() + origin_error(m.a, pose_a) + origin_error(m.b, pose_b);
-  return proof_noise(m.scale, m.a, pose_a, m.b, pose_b);
+  return satcheck::proof_noise(m.scale, placement_error(m.a, pose_a), placement_error(m.b, pose_b));
 }
 
 void write_stage(const CoreAnswer& core, PairResult& result) {
@@ -255,7 +256,7 @@ CoreAnswer from_sat(const MinkowskiDifference& m, const Pose& pose_a, const Pose
   const auto gap = [&](double lower_bound) {
     const GjkResult g = gjk(m);
     result.gjk_iterations += g.iterations;
-    return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
+    return from_gjk_distance(m, g, larger(g.lower, lower_bound));
   };
   const bool boxes = are_boxes(m);
   if (boxes && query == Query::distance) {
@@ -306,7 +307,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
       return result;
     }
   }
-  const double of_cores = query == Query::overlap ? 0 : std::fmax(enough + noise - margin, 0);
+  const double of_cores = query == Query::overlap ? 0 : larger(enough + noise - margin, 0);
   CoreAnswer core = by_sat ? from_sat(m, pose_a, pose_b, query, noise, result) : from_gjk(m, of_cores, result);
   if (core.lower > of_cores) query = Query::overlap;
   write_stage(core, result);
@@ -323,15 +324,17 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
-  Budget budget = Budget::that_stops(kMostExactWork);
-  try {
-    if (polytopes) {
-      if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, budget, result);
-    } else if (in_doubt && !m.curved) {
-      settle_grown(a, pose_a, b, pose_b, budget, result);
+  if (polytopes ? in_doubt || too_wide : in_doubt && !m.curved) {
+    Budget budget = Budget::that_stops(kMostExactWork);
+    try {
+      if (polytopes) {
+        settle_exactly(a, pose_a, b, pose_b, in_doubt, core.axis, budget, result);
+      } else {
+        settle_grown(a, pose_a, b, pose_b, budget, result);
+      }
+    } catch (const BudgetSpent&) {  // the bounds of float64 stand
+      if (in_doubt && result.method != Method::exact) result.outcome = Outcome::undecided;
     }
-  } catch (const BudgetSpent&) {  // the bounds of float64 stand
-    if (in_doubt && result.method != Method::exact) result.outcome = Outcome::undecided;
   }
   if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
   return result;

@@ -4,18 +4,6 @@
 
 namespace satcheck {
 
-Vec3 Simplex::witness_a() const {
-  Vec3 p;
-  for (int i = 0; i < count; ++i) p = p + vertex[i].a * weight[i];
-  return p;
-}
-
-Vec3 Simplex::witness_b() const {
-  Vec3 p;
-  for (int i = 0; i < count; ++i) p = p + (vertex[i].a - vertex[i].w) * weight[i];
-  return p;
-}
-
 ClosestPoint closest_point(const Simplex& s) {
   return closest_point<false>(s.vertex[0].w, s.vertex[1].w, s.vertex[2].w, s.vertex[3].w, s.count);
 }

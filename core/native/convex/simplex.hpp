@@ -12,6 +12,10 @@ struct Simplex {
   double weight[4] = {1, 0, 0, 0};
   int count = 0;
 
+  Simplex() = default;
+  // One point, with copies of it in the places of the others, which takes less time than to clear them.
+  explicit Simplex(const SupportPoint& point) : vertex{point, point, point, point}, count(1) {}
+
   void add(const SupportPoint& point) { vertex[count++] = point; }
   bool contains(const SupportPoint& point) const {
     for (int i = 0; i < count; ++i) {
@@ -19,8 +23,16 @@ struct Simplex {
     }
     return false;
   }
-  Vec3 witness_a() const;
-  Vec3 witness_b() const;
+  Vec3 witness_a() const {
+    Vec3 p;
+    for (int i = 0; i < count; ++i) p = p + vertex[i].a * weight[i];
+    return p;
+  }
+  Vec3 witness_b() const {
+    Vec3 p;
+    for (int i = 0; i < count; ++i) p = p + (vertex[i].a - vertex[i].w) * weight[i];
+    return p;
+  }
 };
 
 ClosestPoint closest_point(const Simplex& simplex);
@@ -29,14 +41,13 @@ ClosestPoint closest_point(const Simplex& simplex);
 // vertices of weight 0 are dropped.
 void weigh_enclosed_origin(Simplex& simplex);
 
-// Keeps only the vertices that carry the closest point. Their weights are still shares. Without a branch, because a
-// branch would be unpredictable.
+// Keeps only the vertices that carry the closest point. Their weights are still shares.
 SATCHECK_INLINE void keep(Simplex& s, const ClosestPoint& closest) {
   int count = 0;
   for (int i = 0; i < 4; ++i) {
-    s.vertex[count] = s.vertex[i];
-    s.weight[count] = closest.share[i];
-    count += closest.carriers >> i & 1;
+    if (!(closest.carriers >> i & 1)) continue;
+    if (count != i) s.vertex[count] = s.vertex[i];
+    s.weight[count++] = closest.share[i];
   }
   s.count = count;
 }

@@ -17,12 +17,6 @@
 namespace satcheck {
 namespace {
 
-// u, the largest relative error of one rounding.
-constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
-
-// As kDeterminantBound: 2 differences, 1 product, 1 addition; the fifth u covers the bound's own roundings.
-constexpr double kOrientation2dBound = 5 * kRoundoff;
-
 // What rounded_normal() promises, relative to the length of the normal.
 constexpr double kNormalTolerance = 1e-14;
 
@@ -272,15 +266,7 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis, Budget* budget) {
       .sign();
 }
 
-int orientation(Vec2 a, Vec2 b, Vec2 c) { return turn_sign(a, b, a, c); }
-
-int turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const Vec2 u = b - a, v = d - c;
-  const double left = u.x * v.y, right = u.y * v.x;
-  const double bound = kOrientation2dBound * (std::fabs(left) + std::fabs(right)) + kUnderflow;
-  if (left - right > bound) return 1;
-  if (left - right < -bound) return -1;
-  if ((u.x == 0 || v.y == 0) && (u.y == 0 || v.x == 0)) return 0;
+int exact_turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const auto lifted = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
   if (may_underflow({lifted(a), lifted(b), lifted(c), lifted(d)})) {
     return cross(dyadic_difference(lifted(a), lifted(b)), dyadic_difference(lifted(c), lifted(d))).z.sign();

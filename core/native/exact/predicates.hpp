@@ -71,11 +71,25 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3, Budge
 // triangle projected along the named axis.
 int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis, Budget* budget = nullptr);
 
-// The same in the plane: +1 if c lies to the left of the line from a to b.
-int orientation(Vec2 a, Vec2 b, Vec2 c);
+// As kDeterminantBound: 2 differences, 1 product, 1 addition; the fifth u covers the bound's own roundings.
+inline constexpr double kOrientation2dBound = 5 * kUnitRoundoff;
+
+// turn_sign() where float64 does not tell it.
+int exact_turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 
 // Sign of (b - a) x (d - c): +1 if the second direction is to the left of the first.
-int turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+inline int turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Vec2 u = b - a, v = d - c;
+  const double left = u.x * v.y, right = u.y * v.x;
+  const double bound = kOrientation2dBound * (std::fabs(left) + std::fabs(right)) + kUnderflow;
+  if (left - right > bound) return 1;
+  if (left - right < -bound) return -1;
+  if ((u.x == 0 || v.y == 0) && (u.y == 0 || v.x == 0)) return 0;
+  return exact_turn_sign(a, b, c, d);
+}
+
+// The orientation in the plane: +1 if c lies to the left of the line from a to b.
+inline int orientation(Vec2 a, Vec2 b, Vec2 c) { return turn_sign(a, b, a, c); }
 
 // Whether the three points lie on one line (or coincide).
 bool collinear(Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr);
