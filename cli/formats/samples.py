@@ -8,6 +8,15 @@ from typing import TYPE_CHECKING
 from satcheck.audit.messages import nothing_checked
 from satcheck.audit.words import counted, in_motion, interval, with_unit
 from satcheck.cli.formats.summary import config_line
+from satcheck.cli.formats.tables import (
+    ROWS,
+    VERDICT_STYLES,
+    Column,
+    fitted_each,
+    hidden,
+    joined,
+    table,
+)
 from satcheck.cli.output import issue_line
 from satcheck.report.assets import ASSET_VERDICTS
 from satcheck.report.report import OVERLAPS
@@ -39,8 +48,6 @@ def render(result: SamplesReport, page: Page, *, top: int | None = None) -> str:
 
     top: how many poses or pairs at most, the worst first; all count in the summary.
     """
-    from satcheck.cli.formats.tables import ROWS, fitted_each, hidden, joined  # brings rich
-
     lines: list[str] = []
     if result.summary.samples <= FEW_POSES:
         found = [sample for sample in result.samples if sample.verdict != "pass"]
@@ -75,8 +82,6 @@ def closing(result: SamplesReport, *, written: bool = False) -> list[str]:
 
 
 def _poses(samples: Sequence[SampledPose], unit: str | None, page: Page) -> list[str]:
-    from satcheck.cli.formats.tables import VERDICT_STYLES, Column, table
-
     columns = (
         Column("pose", tuple(str(sample.number) for sample in samples), right=True),
         Column("verdict", tuple(sample.verdict for sample in samples), graded=True),
@@ -105,8 +110,6 @@ def _line(finding: Finding, unit: str | None) -> str:
 
 
 def _pairs(pairs: Sequence[SampledPair], samples: int, page: Page) -> list[str]:
-    from satcheck.cli.formats.tables import Column, table
-
     columns = [
         Column("A", tuple(pair.a for pair in pairs), named=True),
         Column("B", tuple(pair.b for pair in pairs), named=True),
