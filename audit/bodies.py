@@ -83,6 +83,8 @@ class PlacedBodies(Struct, frozen=True):
 
     def _alike(self) -> list[dict[int, None]]:
         """The placed bodies, by their units."""
+        if len({*self.units.values()}) < 2:
+            return [dict.fromkeys(self.placed)]
         alike: dict[str | None, dict[int, None]] = {}
         for k in self.placed:
             alike.setdefault(self.units.get(k), {})[k] = None

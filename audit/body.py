@@ -17,6 +17,7 @@ from satcheck.core.rounding import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step
 from satcheck.scene.bodies import is_half_space, resolution_in_world
+from satcheck.scene.files.readers import is_complete
 
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition, DecompositionError
@@ -43,9 +44,9 @@ def around_both(a: Box, b: Box) -> Box:
     return (min(x, p), min(y, q), min(z, r)), (max(u, f), max(v, g), max(w, h))
 
 
-def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
+def diagonal(box: Box, axes: tuple[int, ...] | None = None) -> float:
     low, high = box
-    return math.hypot(*[high[axis] - low[axis] for axis in axes])
+    return math.dist(low, high) if axes is None else math.hypot(*(high[k] - low[k] for k in axes))
 
 
 def box_escape(a: Box, b: Box) -> tuple[float, Vector]:
@@ -102,7 +103,8 @@ def mesh_key(file: MeshFile, *, is_open: bool) -> MeshKey:
 class SharedMesh:
     """The data that all bodies with one mesh share, in file coordinates.
 
-    geometry: tree, hull and convexity. largest: the largest absolute coordinate. covers_once(): the
+    geometry: tree, hull and convexity. largest: the largest absolute coordinate. is_complete: its
+    reader leaves nothing out without a word. covers_once(): the
     solid covers no point twice, so its volume is that of its mesh. has_sheets(): parts of the
     surface of the solid have no inside on either side.
     """
@@ -113,6 +115,7 @@ class SharedMesh:
         "file",
         "geometry",
         "has_sheets",
+        "is_complete",
         "largest",
         "shape",
         "surface_tolerance",
@@ -132,6 +135,7 @@ class SharedMesh:
         self.triangles = file.mesh.triangle_count
         self.surface_tolerance = settings.surface_tolerance
         self.largest = file.mesh.largest_coordinate
+        self.is_complete = is_complete(file.format)
         health = file.health
         self.geometry = geometry = core.Geometry(
             file.mesh, health.solid, health.plain_solid, is_open
@@ -247,13 +251,13 @@ class PlacedBody:
         self.shared = shared
         self.id = body.id
         self.bounds: Box = body.world_mesh().bounds if bounds is None else bounds
-        self.curved = _curved(body)
+        self.curved = None if body.shape is None else _curved(body)
         if self.curved is not None:
             self.bounds = self.curved.bounds()
         self.diagonal = diagonal(self.bounds)
         self.resolution = resolution_in_world(body.file, body.transform, shared.largest)
         self.solid = body.file.health.solid
-        self.endless = is_half_space(body)
+        self.endless = body.shape is not None and is_half_space(body)
         self.surface_tolerance = _surface_tolerance(body, shared.surface_tolerance)
         self._geometry: core.PlacedGeometry | None = None
         self._posed: core.PosedBody | None = None

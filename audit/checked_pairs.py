@@ -17,7 +17,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.draft import Draft, indeterminate
@@ -89,10 +88,11 @@ class StepsOfScene:
         many as any may."""
         if len(pairs) == 1 and not self._known:
             self.left = MOST_STEPS
-        for body in {id(body): body for pair in pairs for body in (pair.a, pair.b)}.values():
+        for body in dict.fromkeys(body for pair in pairs for body in (pair.a, pair.b)):
             if id(body) not in self._known:
                 self.left += self._steps_of(body)
-                self._known |= {id(body), id(body.shared)}
+                self._known.add(id(body))
+                self._known.add(id(body.shared))
 
     def _steps_of(self, body: PlacedBody) -> int:
         if body.curved is not None:
@@ -184,13 +184,13 @@ class _Held:
 
 
 def _along_curve(pairs: Sequence[Pair]) -> list[int]:
-    bodies = {id(body): body for pair in pairs for body in (pair.a, pair.b)}
-    order = core.order_along_curve([body.bounds for body in bodies.values()])
-    keys = list(bodies)
-    rank = {keys[number]: place for place, number in enumerate(order)}
+    bodies = [*dict.fromkeys(body for pair in pairs for body in (pair.a, pair.b))]
+    order = core.order_along_curve([body.bounds for body in bodies])
+    rank = {bodies[number]: place for place, number in enumerate(order)}
     places = []  # sort key: the tiles of both bodies, then the bodies, each the earlier one first
     for pair in pairs:
-        a, b = sorted((rank[id(pair.a)], rank[id(pair.b)]))
+        a, b = rank[pair.a], rank[pair.b]
+        a, b = (a, b) if a < b else (b, a)
         places.append((a // TILE, b // TILE, a, b))
     return sorted(range(len(pairs)), key=places.__getitem__)
 
@@ -273,11 +273,10 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
         finding = examine(draft, climb)
         fails_now = finding.relation in OVERLAPS and fails(finding, pair.settings.fail_on)
         if pair.request.if_failing and fails_now:
-            return CheckedPair(finding, draft=draft)
+            return CheckedPair(finding, (), draft, draft.steps, draft.wants_more)
         return finished(finding, draft)
 
-    checked = guarded(examined, draft)
-    return replace(checked, steps=draft.steps, wants_more=draft.wants_more)
+    return guarded(examined, draft)
 
 
 def guarded(step: Callable[[], CheckedPair], draft: Draft) -> CheckedPair:
@@ -285,7 +284,7 @@ def guarded(step: Callable[[], CheckedPair], draft: Draft) -> CheckedPair:
     try:
         return step()
     except core.TooManySteps:
-        return CheckedPair(draft.indeterminate(TOO_MANY_STEPS), tuple(draft.issues))
+        return _checked(draft.indeterminate(TOO_MANY_STEPS), draft)
     except Exception as error:
         not_for_lack_of_memory(error)
         import logging
@@ -293,8 +292,8 @@ def guarded(step: Callable[[], CheckedPair], draft: Draft) -> CheckedPair:
         logging.getLogger("satcheck").debug("a pair failed", exc_info=True)
         reason = f"internal error: {type(error).__name__}: {error}"
         message = f"{draft.pair.a.id} and {draft.pair.b.id}: {reason}"
-        issue = Issue(INTERNAL_ERROR, "error", None, None, message)
-        return CheckedPair(draft.indeterminate(reason), (*draft.issues, issue))
+        draft.issues.append(Issue(INTERNAL_ERROR, "error", None, None, message))
+        return _checked(draft.indeterminate(reason), draft)
 
 
 def finished(finding: Finding, draft: Draft) -> CheckedPair:
@@ -307,4 +306,8 @@ def finished(finding: Finding, draft: Draft) -> CheckedPair:
         from satcheck.audit.stages.certificate import with_certificate
 
         finding = with_certificate(finding, draft)
-    return CheckedPair(finding, tuple(draft.issues))
+    return _checked(finding, draft)
+
+
+def _checked(finding: Finding, draft: Draft) -> CheckedPair:
+    return CheckedPair(finding, (*draft.issues,), None, draft.steps, draft.wants_more)

@@ -7,6 +7,7 @@ An overlap has no gap, so it keeps no clearance. What decides `touching` is `rep
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import nullcontext
 from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
@@ -32,7 +33,6 @@ from satcheck.report.judge import (
     named,
 )
 from satcheck.report.report import OVERLAPS, Effect, Finding
-from satcheck.scene.files.readers import is_complete
 
 if TYPE_CHECKING:
     from satcheck import core
@@ -59,7 +59,7 @@ def examine(draft: Draft, climb: Climb | None = None) -> Finding:
     settle(draft, climb)
     undecided = why_open(draft)
     if undecided is None:
-        with thickness_ahead(draft):
+        with thickness_ahead(draft) if draft.pair.alone else nullcontext():
             if draft.exact in OVERLAPS:
                 undecided = _find_overlap(draft)
             else:
@@ -120,8 +120,9 @@ def _run_on_request(draft: Draft) -> None:
             measure_thickness(draft)
         note_unavailable(draft)
         return
+    by = draft.pair.request.by
     for effect, run in STAGES.items():
-        if draft.pair.request.wants(effect):
+        if effect in by:
             run(draft)
 
 
@@ -263,6 +264,6 @@ def _of_estimate(
 def _cap(draft: Draft) -> None:
     """Make the draft an estimate if a reader may have left out what would overlap. The issue of the
     file keeps the check from passing, until somebody accepts it."""
-    known = all(is_complete(body.body.file.format) for body in (draft.pair.a, draft.pair.b))
+    known = draft.pair.a.shared.is_complete and draft.pair.b.shared.is_complete
     if not known and draft.relation not in OVERLAPS:
         draft.proven, draft.reason = False, draft.reason or INCOMPLETE

@@ -58,5 +58,7 @@ def check_meshes(
     if settings.certificate:
         raise SatcheckError("bad-setting", "certificate: certificates name files; write the meshes")
     scene = scene_of_meshes({"a": a, "b": b}, {"a": pose_a, "b": pose_b})
-    (finding,) = check(scene, replace(settings, list_pruned=True)).findings
+    if settings.list_pruned is False:
+        settings = replace(settings, list_pruned=True)
+    (finding,) = check(scene, settings).findings
     return finding

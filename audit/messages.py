@@ -349,16 +349,15 @@ def _apart(finding: Finding, unit: str | None) -> str:
 def left_open(report: Report) -> list[str]:
     """Return `1 pair is indeterminate`: what was asked and could not be decided."""
     summary, said = report.summary, []
-    undecided = sum(
-        f.undecided == "relation" and f.baseline_state != "accepted" for f in report.findings
-    )
+    open_ = [f for f in report.findings if f.undecided is not None or f.motion is not None]
+    undecided = sum(f.undecided == "relation" and f.baseline_state != "accepted" for f in open_)
     undecided += unlisted_indeterminate(summary.pairs, report.findings)
     if undecided:
         said.append(_of_pairs(undecided, "is indeterminate", "are indeterminate"))
-    if swept := sum(past_holes(finding) for finding in report.findings):
+    if swept := sum(map(past_holes, open_)):
         holes = "past holes that may be filled"
         said.append(_of_pairs(swept, f"moves {holes}", f"move {holes}"))
-    unsure = Counter(f.relation in OVERLAPS for f in report.findings if f.undecided == "limit")
+    unsure = Counter(f.relation in OVERLAPS for f in open_ if f.undecided == "limit")
     for overlap, what in ((True, "exceed {} limits"), (False, "be closer than {} clearance")):
         if count := unsure[overlap]:
             may = f"may {what.format('its' if count == 1 else 'their')}"

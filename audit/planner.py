@@ -49,10 +49,13 @@ class Planner:
 
     def request(self, i: int, j: int) -> Request:
         key = self._book.key(i, j)
-        if key not in self._requests:
-            terms = self._book.terms(i, j)
-            self._requests[key] = request_for(self.settings, terms, composed=self._composed)
-        return self._requests[key]
+        request = self._requests.get(key)
+        if request is None:
+            request = self._by_flags
+            if terms := self._book.terms(i, j):
+                request = request_for(self.settings, terms, composed=self._composed)
+            self._requests[key] = request
+        return request
 
     def requested_by(self, effect: Effect) -> tuple[str, ...]:
         """The flag and the rules that request the effect; empty: none does."""
@@ -92,13 +95,12 @@ class Planner:
             return [LARGEST_LENGTH] * len(resolutions)
         # In a plane, curves may be closer than their polygons by the resolution.
         flat = settings.planar is not None
-        own = [self._book.longest(key) for key in ("clearance", "tolerance")]
+        own = [*map(max, *(self._book.longest(key) for key in ("clearance", "tolerance")))]
         clearance = settings.clearance or 0.0
         return [
             max(
                 resolution if settings.tolerance is None else 0.5 * settings.tolerance,
-                0.5 * max(clearance, *(lengths[body] for lengths in own))
-                + (resolution * (1 + EXACT_WIDTH) if flat else 0.0),
+                0.5 * max(clearance, own[body]) + (resolution * (1 + EXACT_WIDTH) if flat else 0.0),
             )
             for body, resolution in resolutions.items()
         ]

@@ -24,7 +24,7 @@ from satcheck.report.samples import (
     StatedPose,
 )
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.robot.postures import PoseBatch
+from satcheck.scene.robot.postures import PoseBatch, Posture
 
 # A report lists all samples up to this number. Of more samples it lists the first ones with a
 # finding, so many.
@@ -58,16 +58,19 @@ class SampleResults:
         """Checks a pose as a scene of its own."""
         report = check(batch.posed(row), self.settings, cache=self.cache)
         self.first = self.first or report
-        own = {(issue.code, issue.message) for issue in batch.posture(row).issues}
+        posture = batch.posture(row)
+        own = {(issue.code, issue.message) for issue in posture.issues}
         of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
         others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
         self.issues |= dict.fromkeys(others)
-        return self.sample(batch, row, report.summary.verdict, report.findings, of_pose)
+        verdict = report.summary.verdict
+        return self.sample(batch, row, posture, verdict, report.findings, of_pose)
 
     def sample(
         self,
         batch: PoseBatch,
         row: int,
+        posture: Posture,
         verdict: Verdict,
         findings: Iterable[Finding],
         issues: Iterable[Issue],
@@ -76,14 +79,15 @@ class SampleResults:
         that does not stand as in the first sample."""
         assert self.first is not None
         told = tuple(finding for finding in findings if not is_plain(finding))
-        first = {body.id: body.transform for body in self.first.bodies}
-        moved = {
-            body.id: body.transform or IDENTITY
-            for body in (batch.posed(row).bodies if told else ())
-            if body.transform != first[body.id]
-        }
-        number, pose = batch.first + row, batch.posture(row).pose()
-        return SampledPose(number, pose, verdict, told, tuple(issues), moved)
+        moved = {}
+        if told:
+            first = {body.id: body.transform for body in self.first.bodies}
+            moved = {
+                body.id: body.transform or IDENTITY
+                for body in batch.posed(row).bodies
+                if body.transform != first[body.id]
+            }
+        return SampledPose(batch.first + row, posture.pose(), verdict, told, tuple(issues), moved)
 
     def add(self, batch: PoseBatch, row: int) -> None:
         """Adds what the check of a pose says."""

@@ -168,7 +168,7 @@ class _SortedBatch:
                     Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues
                 )
                 self._results.listed.append(
-                    self._results.sample(self._batch, row, verdicts[row], found, issues)
+                    self._results.sample(self._batch, row, posture, verdicts[row], found, issues)
                 )
         return self._batch
 

@@ -31,7 +31,10 @@ def with_stated_places(report: Report, scene: Scene) -> Report:
     for id_, entry in entries.items():
         line = entry.line if entry.number is None else lines[entry.file][entry.number]
         places[id_] = Place(entry.file, line) if line else None
-    bodies = (replace(body, stated_at=places.get(body.id)) for body in report.bodies)
+    bodies = (
+        replace(body, stated_at=places[body.id]) if body.id in places else body
+        for body in report.bodies
+    )
     return replace(report, bodies=tuple(bodies))
 
 

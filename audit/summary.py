@@ -3,8 +3,9 @@ required each, on how many pairs it ran, and why not on others."""
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from math import inf
 from typing import TYPE_CHECKING
 
 from satcheck._version import __version__
@@ -218,21 +219,24 @@ def doubtful_sizes(
 def size_of(body: PlacedBody, plane: Plane | None) -> float:
     """The longest side of its own box, world units: the same in every pose."""
     low, high = body.body.file.mesh.bounds
-    axes = (0, 1, 2) if plane is None else axes_of(plane)
+    sides = [v - u for u, v in zip(low, high, strict=True)]
+    if plane is not None:
+        sides = [sides[axis] for axis in axes_of(plane)]
     transform = body.body.transform
-    stretch = 1.0 if transform is None else largest_stretch(transform)
-    return stretch * max(high[axis] - low[axis] for axis in axes)
+    return max(sides) if transform is None else largest_stretch(transform) * max(sides)
 
 
 def _tolerances(sizes: dict[str, float], findings: Sequence[Finding]) -> Iterator[Issue]:
-    largest: dict[str, float] = {}
+    larger: dict[str, list[float]] = {}  # of each body the tolerances that are larger than it
     for finding in findings:
+        tolerance = finding.tolerance or 0.0
         for id_ in (finding.a, finding.b):
-            largest[id_] = max(largest.get(id_, 0.0), finding.tolerance or 0.0)
-    small = [id_ for id_, size in sizes.items() if size < largest.get(id_, 0.0)]
-    if not small:
+            if tolerance > sizes.get(id_, inf):
+                larger.setdefault(id_, []).append(tolerance)
+    if not larger:
         return
-    tolerance = max(largest[id_] for id_ in small)
+    small = [id_ for id_ in sizes if id_ in larger]
+    tolerance = max(map(max, larger.values()))
     verb = "is" if len(small) == 1 else "are"
     message = (
         f"{listed(small)} {verb} smaller than the tolerance {tolerance:.3g}, "
@@ -263,9 +267,10 @@ def effects_of(
     """Return a report for each effect. close: the pairs that the broad phase kept. For each effect,
     the pairs on which it ran and those on which it did not add up to all pairs. Without motions
     there is no sweep. units_unknown: the number of pairs without a common unit."""
-    effects = [effect for effect in EFFECTS if effect != "sweep" or planner.moving]
     time: dict[str, float] = dict.fromkeys(EFFECTS, 0.0)
-    spared: dict[Effect, Counter[str | None]] = {effect: Counter() for effect in effects}
+    spared: dict[Effect, defaultdict[str | None, int]] = {
+        effect: defaultdict(int) for effect in EFFECTS if effect != "sweep" or planner.moving
+    }
     called_for: set[Effect] = set()  # effects that nobody requests, and a failing pair calls for
     fail_on, examined = planner.settings.fail_on, 0
     for request, finding in close:
@@ -277,7 +282,7 @@ def effects_of(
         if finding.motion is not None:
             by.add("sweep")
         done = _done(finding, by, time)
-        for effect in effects:
+        for effect in spared.keys() & (by | done):
             spared[effect][_why_not(effect, finding, by, done)] += 1
     unreadable = counts.asked - counts.pruned - examined - units_unknown
     before = (PRUNED, counts.pruned), (UNREADABLE, unreadable), (UNITS_UNKNOWN, units_unknown)
@@ -286,6 +291,7 @@ def effects_of(
         asked_by = planner.requested_by(effect)
         if effect in called_for:
             asked_by += (FOR_FAILURES,)
+        why_not[NOT_ASKED] += examined - sum(why_not.values())
         ran = why_not.pop(None, 0)
         why_not[ALLOWED] += counts.allowed
         for reason, count in before:

@@ -213,8 +213,9 @@ def limits(finding: Finding, report: Report) -> list[str]:
     unit, rule = unit_of(report.units), rule_of(finding, report)
     if finding.relation not in OVERLAPS:
         own = None if rule is None else rule.clearance
-        asked = {"clearance": (report.settings.clearance if own is None else own, "")}
-    elif rule is not None:
+        limit = report.settings.clearance if own is None else own
+        return [] if limit is None else [f"clearance {with_unit(stated(limit), unit)}"]
+    if rule is not None:
         asked = {
             "max_thickness": (rule.max_thickness, ""),
             "max_depth": (rule.max_depth, ""),

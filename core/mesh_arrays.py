@@ -63,8 +63,8 @@ def _checked(vertices: Array, faces: Array) -> tuple[Array, Array]:
     _require_rows(vertices, "vertices", "three numbers")
     _require_rows(faces, "faces", "three integers")
     require_finite(vertices, "vertices")
-    outside = (faces < 0) | (faces >= len(vertices))
-    if outside.any():
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        outside = (faces < 0) | (faces >= len(vertices))
         row = int(outside.any(axis=1).argmax())
         index = faces[row][outside[row]][0]
         there_are = f"there are {len(vertices)} vertices, numbered from 0"

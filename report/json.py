@@ -20,7 +20,7 @@ _INDENTATION = re.compile("\n *")
 # How JSON writes a byte of a file name that is not UTF-8.
 _NOT_UTF8 = b"\\udc"
 Read = TypeVar("Read")
-_IN_A_PIECE = 500  # elements of a list
+_IN_A_PIECE = 100  # elements of a list
 _ASSETS_IN_A_PIECE = 10
 # At the end of a line. No string has a line end in it, so this is a number.
 _NEGATIVE_ZERO = re.compile(rb"-0\.0(?=,?$)", re.MULTILINE)
@@ -147,7 +147,7 @@ def _list(key: str, pieces: Iterable[Any], timings: bool) -> Iterator[str]:
     for piece in pieces:
         yield before
         written = piece if timings else without_timings(to_builtins(piece))
-        yield _text({key: written}).removeprefix("{" + begin).removesuffix(end + "\n}")
+        yield _text({key: written})[len("{" + begin) : -len(end + "\n}")]
         before = ","
     yield begin + "]" if before == begin else end
 
@@ -163,10 +163,14 @@ def _pieces_of(value: Any) -> Iterator[Any]:
 
 def _text(value: Any) -> str:
     try:
-        text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT)
+        compact = msgspec_json.encode(value)
+        text = msgspec_json.format(compact, indent=INDENT)
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
-        text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False).encode()
-    return escaped(_NEGATIVE_ZERO.sub(b"0.0", text).decode())
+        compact = text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False).encode()
+    text = _NEGATIVE_ZERO.sub(b"0.0", text)
+    if compact.isascii() and b"\x7f" not in compact and b"##" not in compact:
+        return text.decode()
+    return escaped(text.decode())
 
 
 def escaped(text: str) -> str:

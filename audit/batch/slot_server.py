@@ -74,6 +74,7 @@ class Answer(Struct, frozen=True):
 
 # An answer without its world.
 _Made = tuple[AssetVerdict, bytes, tuple[Issue, ...]]
+_DECODER = msgspec.msgpack.Decoder(_Made)
 
 
 class Terms(NamedTuple):
@@ -99,7 +100,7 @@ def request_of(job: Job, terms: bytes) -> bytes:
 
 
 def answer_in(reply: bytes, world: World) -> Answer:
-    return Answer(world, *msgspec.msgpack.decode(reply, type=_Made))
+    return Answer(world, *_DECODER.decode(reply))
 
 
 def serve(request: bytes) -> bytes:

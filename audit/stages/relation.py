@@ -188,10 +188,10 @@ def _open_pieces_around(pair: Pair) -> str | None:
     count as six sheets, but the box may be meant as a solid.
     """
     for outer, inner in ((pair.a, pair.b), (pair.b, pair.a)):
-        if pair.settings.allow_open or outer.body.open:
+        if outer.solid or pair.settings.allow_open or outer.body.open:
             continue
         health = outer.body.file.health
-        in_pieces = not (outer.solid or health.closed or health.flat or outer.curved)
+        in_pieces = not (health.closed or health.flat or outer.curved)
         if in_pieces and _is_around(outer, _point_of(inner)):
             return (
                 f"open pieces of {outer.id} surround {inner.id}: close them, or say with "

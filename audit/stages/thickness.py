@@ -190,11 +190,11 @@ class _Ahead:
 
 @contextmanager
 def thickness_ahead(draft: Draft) -> Iterator[None]:
-    """Begin to search the thickness of an overlap of which the depth is searched, if it is the only
-    pair and long to search."""
+    """Begin to search the thickness of an overlap of which the depth is searched, if it is long to
+    search. draft: of the only pair."""
     pair = draft.pair
     both = pair.request.wants("depth") and pair.request.wants("thickness")
-    if not (pair.alone and both and draft.exact in OVERLAPS and _is_worth_a_thread(pair)):
+    if not (both and draft.exact in OVERLAPS and _is_worth_a_thread(pair)):
         yield
         return
     pair.a.surface(), pair.b.surface()  # made once, for both searches

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 SMALL_BODIES = 2
 SMALL_TRIANGLES = 1000
 # Objects made between two searches for cycles: of what a check makes almost none is in one.
-COLLECT_AFTER = 50_000
+COLLECT_AFTER = 1_000_000
 FORMATS = FormatChoice(ALL)
 WIDTH = option.Number(0, 1, min_open=True, max_open=True)
 

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, field
 
 from satcheck.audit.acceptance import words_to_accept
-from satcheck.audit.messages import failing, is_unsure, of_command
+from satcheck.audit.messages import is_unsure, of_command
 from satcheck.audit.words import counted, is_hit, is_unusable, number
 from satcheck.report.report import CROSS_CHECK, OVERLAPS, RELATIONS
-from satcheck.report.verdict import exempt_by
+from satcheck.report.verdict import exempt_by, is_failure
 from satcheck.scene.bodies import UNITS_UNKNOWN
 
 if TYPE_CHECKING:
@@ -198,16 +198,16 @@ def next_step(report: Report, *, written: bool = False) -> list[str]:
 
 
 def _after_failure(report: Report, written: bool) -> Iterator[str]:
-    worst = failing(report)
-    overlaps = [f for f in worst if f.at_rest in OVERLAPS]
-    if report.settings.accuracy != "exact" and any(f.quality == "estimate" for f in worst):
+    failed = [f for f in report.findings if is_failure(f, report.settings.fail_on)]
+    overlaps = [f for f in failed if f.at_rest in OVERLAPS]
+    if report.settings.accuracy != "exact" and any(f.quality == "estimate" for f in failed):
         yield "--accuracy exact decides what is only possible"
     elif len(overlaps) > MANY and _may_be_assets(report, len(overlaps)):
         yield "satcheck batch checks each file by itself, if they are assets of their own"
     elif len(overlaps) > MANY and report.baseline is None:
         yield "satcheck suggest proposes rules for overlaps that are intended"
     elif not written:
-        yield f"-o report.html shows {'it' if len(worst) == 1 else 'them'} in 3-D"
+        yield f"-o report.html shows {'it' if len(failed) == 1 else 'them'} in 3-D"
     within = [f for f in overlaps if f.at_rest in ("contains", "inside")]
     if _depends_on_holes(report, within):
         yield "--allow-open, if the open meshes are meant to be open: they then have no inside"

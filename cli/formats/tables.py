@@ -2,7 +2,8 @@
 tables.
 
 Where a page is too narrow, columns give way, the widest first: names are broken anywhere, figures
-between words only. Where that does not help, there is a paragraph for each row.
+between words only. Where that does not help, there is a paragraph for each row. What draws with
+rich imports it: the lines that are said beside a file do not need it.
 """
 
 from __future__ import annotations
@@ -15,16 +16,16 @@ from typing import TYPE_CHECKING, Literal
 
 from msgspec import Struct
 from msgspec.structs import replace
-from rich import box
 from rich.cells import cell_len, chop_cells
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
 
 from satcheck.audit.words import counted
 from satcheck.cli.output import harmless
 
 if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
     from satcheck.cli.output import Page
     from satcheck.report.assets import AssetVerdict
 
@@ -78,6 +79,10 @@ def table(columns: Sequence[Column], page: Page, styles: Sequence[str] | None = 
 
     styles: of each row, in the columns that are graded.
     """
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
     styles = [""] * len(columns[0].cells) if styles is None else styles
     columns = [
         replace(column, cells=tuple(map(harmless, column.cells))) if column.named else column
@@ -111,6 +116,8 @@ def fitted(text: str, page: Page, style: str = "") -> list[str]:
     text = harmless(text)
     lines = [text]
     if (style and page.colour) or cell_len(text) > page.width:
+        from rich.text import Text
+
         narrow = page._replace(width=max(page.width - INDENT, 1))
         lines = _drawn(Text(text, style), narrow)
     return [lines[0], *(f"{' ' * INDENT}{line}" for line in lines[1:])]
@@ -139,6 +146,9 @@ def all_begin(root: str) -> list[str]:
 
 def aligned(rows: Iterable[Sequence[str]], page: Page, *, bold: bool = True) -> list[str]:
     """Return indented rows without a head. bold: the first cell of each."""
+    from rich.table import Table
+    from rich.text import Text
+
     grid = Table.grid(padding=(0, GAP, 0, 0))
     for cells in rows:
         first, *others = map(harmless, cells)
@@ -186,6 +196,8 @@ def _paragraphs(columns: Sequence[Column], page: Page, styles: Sequence[str]) ->
 
 @cache
 def _console(page: Page) -> Console:
+    from rich.console import Console
+
     return Console(
         file=StringIO(),
         width=page.width,

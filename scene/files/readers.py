@@ -429,11 +429,11 @@ def kind_of(path: str) -> InputKind:
         return "scene"
     if suffix == _SRDF:
         return "srdf"
+    if robots_of(suffix) and suffix not in readers():
+        return "robot"
     reader = mesh_reader(suffix)
     if reader is not None:
         return "document" if reader.kind == "document" else "mesh"
-    if robots_of(suffix) and suffix not in readers():
-        return "robot"
     root, *below = _first_elements(path)
     if root == "robot":
         return "srdf" if below and below[0] in _SRDF_ELEMENTS else "robot"

@@ -27,6 +27,11 @@ Pose = Mapping[str, Values]
 # Significant digits of a random value. A user can then read and retype a pose; the rounded pose is
 # the one that is checked.
 _DIGITS = 6
+# Values of other sizes are rounded one by one, and so is a value this close to the middle of two
+# rounded ones, in units of the last digit: more than the rounding of its product with a power.
+_PLAIN = (1e-9, 1e5)
+_NEAR_MIDDLE = 1e-6
+_POWERS = np.array([float(f"1e{k}") for k in range(23)])  # exact in float64
 # Poses that are drawn at a time where they are taken one by one.
 _DRAWN = 1024
 
@@ -206,5 +211,17 @@ def _range(joint: Joint) -> tuple[float, float]:
 
 
 def _between(low: float, high: float, shares: Numbers) -> Numbers:
-    drawn = [float(f"{value:.{_DIGITS}g}") for value in (low + shares * (high - low)).tolist()]
-    return np.clip([drawn], low, high)
+    return np.clip([_rounded(low + shares * (high - low))], low, high)
+
+
+def _rounded(values: Numbers) -> Numbers:
+    """Return the float64 of float(f"{value:.6g}") for each value: the quotient of an integer of six
+    digits and a power of ten, both exact, which is rounded once."""
+    sizes = np.abs(values)
+    plain = (sizes >= _PLAIN[0]) & (sizes < _PLAIN[1])
+    power = _POWERS[_DIGITS - 1 - np.floor(np.log10(np.where(plain, sizes, 1.0))).astype(int)]
+    scaled = sizes * power
+    rounded: Numbers = np.copysign(np.rint(scaled) / power, values)
+    for row in np.flatnonzero(~plain | (np.abs(scaled % 1.0 - 0.5) < _NEAR_MIDDLE)):
+        rounded[row] = float(f"{float(values[row]):.{_DIGITS}g}")
+    return rounded

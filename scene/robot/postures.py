@@ -57,6 +57,7 @@ class Joints:
                 self._owners.setdefault(joint.name, []).append(robot.name)
                 if joint.freedoms:
                     self.movable[joint.name] = joint
+        self._mimics = frozenset(name for name, joint in self.movable.items() if joint.mimic)
 
     def check(self, pose: Pose) -> None:
         """Raise SatcheckError (`bad-pose`) if a joint is unknown, is fixed, exists in two robots,
@@ -99,8 +100,7 @@ class Joints:
     def posture(self, joints: dict[str, Values], pose: Pose) -> Posture:
         """Return the posture with these values of all joints that move, of which the pose names
         some. A value beyond the limits is kept, with a warning."""
-        mimics = frozenset(name for name, joint in self.movable.items() if joint.mimic)
-        return Posture(joints, mimics, tuple(self._issues(joints, pose)))
+        return Posture(joints, self._mimics, tuple(self._issues(joints, pose)))
 
     def _issues(self, joints: Mapping[str, Values], pose: Pose) -> Iterator[Issue]:
         moved = [(repr(name), joint, joints[name][0]) for name, joint in self.movable.items()]

@@ -177,7 +177,9 @@ def joined(scene: Scene, inputs: Sequence[Input], scales: Mapping[str, float]) -
         scene,
         bodies=tuple(
             replace(body, open=True) if opened.get(body.id) else body for body in scene.bodies
-        ),
+        )
+        if opened
+        else scene.bodies,
         ignore_within_groups=frozenset(ignored),
         # Those of documents and of regions first, so that a rule of a scene can override them.
         rules=(*scene.rules, *spaces, *rules),

@@ -33,8 +33,12 @@ _BARE_LENGTH = r"""^[^"'#]*=[\s\[]*([-+]?[\d._e+-]+\s?[a-zµ]+)\b"""
 _TEXT = r'"[^"\\\n]*+(?:\\.[^"\\\n]*+)*+"'
 _NUMBERS = r"""\[[^][{}"'#]*+\]"""
 # A list of numbers is one token, and so is a matrix.
-_MARK = rf"{_NUMBERS}|\[\s*+(?:{_NUMBERS}[\s,]*+)++\]|[][{{}},]"
+_MATRIX = rf"{_NUMBERS}|\[\s*+(?:{_NUMBERS}[\s,]*+)++\]"
+_MARK = rf"{_MATRIX}|[][{{}},]"
+# A table without tables and other lists in it.
+_FLAT = rf"\{{(?:[^][{{}}\"]++|{_TEXT}|{_MATRIX})*+\}}"
 _JSON = re.compile(rf"(?P<key>{_TEXT})\s*+:|{_TEXT}|{_MARK}")
+_JSON_OUTER = re.compile(rf"(?P<key>{_TEXT})\s*+:|{_TEXT}|{_FLAT}|{_MARK}")
 _PART = rf"(?:(?<![\w-])[\w-]++|{_TEXT}|'[^'\n]*+')"
 _NAME = rf"{_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+"
 _LONG_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{{MAX_DEPTH}}}")
@@ -220,9 +224,10 @@ def lines_of(text: str, wanted: Iterable[Keys], *, toml: bool) -> Mapping[Keys, 
     Raises ValueError or IndexError for a text that is no such document.
     """
     around = {keys[:count] for keys in wanted for count in range(len(keys) + 1)}
+    outer = all(len(keys) < 2 or (len(keys) == 2 and isinstance(keys[1], int)) for keys in around)
     lines: dict[Keys, int] = {(): 1}
     line, counted = 1, 0
-    for keys, at in _places(text, toml):
+    for keys, at in _places(text, toml, outer=outer):
         if keys in around and not (toml and keys in lines):  # in JSON the last of equal keys counts
             line, counted = line + text.count("\n", counted, at), at
             lines[keys] = line
@@ -247,13 +252,17 @@ def repeated_keys(text: str) -> Iterator[Keys]:
         seen.add(keys)
 
 
-def _places(text: str, toml: bool) -> Iterator[tuple[Keys, int]]:
-    """(keys, offset) of each key, header, and table in a list, in the order of the text."""
+def _places(text: str, toml: bool, *, outer: bool = False) -> Iterator[tuple[Keys, int]]:
+    """(keys, offset) of each key, header, and table in a list, in the order of the text. outer: the
+    outermost keys and the tables in their lists are enough."""
     table: Keys = ()  # of the last header
     value: Keys = ()  # of the last key
     open_: list[Keys] = []  # the lists and tables around
     number: dict[Keys, int] = {}  # of the current item of a list
-    for token in (_TOML if toml else _JSON).finditer(text):
+    tokens, begin = _TOML if toml else _JSON, 0
+    if outer and not toml:
+        tokens, begin, open_ = _JSON_OUTER, text.index("{") + 1, [()]
+    for token in tokens.finditer(text, begin):
         owner = open_[-1] if open_ else table
         kind, mark = token.lastgroup, token[0]
         if kind == "key":
@@ -271,13 +280,14 @@ def _places(text: str, toml: bool) -> Iterator[tuple[Keys, int]]:
                 number[table] = number.get(table, -1) + 1
                 table = (*table, number[table])
                 yield table, token.start()
-        elif mark in "[{":
+        elif mark in "[{" or mark[0] == "{":
             if owner in number:
                 value = (*owner, number[owner])
                 yield value, token.start()
             if mark == "[":
                 number[value] = 0
-            open_.append(value)
+            if mark in "[{":
+                open_.append(value)
         elif mark == "," and owner in number:
             number[owner] += 1
         elif mark in "]}":

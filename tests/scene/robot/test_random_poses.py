@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from pathlib import Path
 
 import pytest
@@ -47,6 +48,16 @@ def test_rounding_does_not_leave_the_limits(tmp_path: Path) -> None:
     text = robot_of(link("a"), link("b"), joint("j", "a", "b", "revolute", limit))
     for pose in list(RandomPoses([read(tmp_path, text)], 20, 0)):
         assert 1.00000049 <= pose["j"][0] <= 1.00000051
+
+
+@pytest.mark.parametrize("limit", [1e-11, 0.0625, 9.9999994, 30000.0, 1e7])
+def test_each_value_has_six_digits(tmp_path: Path, limit: float) -> None:
+    limits = f'<limit lower="{-limit}" upper="{limit}"/>'
+    text = robot_of(link("a"), link("b"), joint("j", "a", "b", "revolute", limits))
+    shares = random.Random(2)
+    for pose in RandomPoses([read(tmp_path, text)], 3000, 2):
+        value = -limit + shares.random() * (limit + limit)
+        assert pose["j"] == (min(max(float(f"{value:.6g}"), -limit), limit),)
 
 
 def test_what_is_fixed_stays_and_the_others_do_not_notice() -> None:
