@@ -47,6 +47,26 @@ double share_within(const Aabb& box, const Aabb& other) {
   return share;
 }
 
+bool is_large(PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; }
+
+// Calls make(body) for both bodies; for large ones in parallel.
+template <class Make>
+void make_both(PlacedGeometry& a, PlacedGeometry& b, Make make) {
+  const unsigned threads = is_large(a) && is_large(b) ? 0 : 1;
+  parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? a : b); });
+}
+
+void make_hull_shapes(PlacedGeometry& a, PlacedGeometry& b) {
+  make_both(a, b, [](PlacedGeometry& body) { body.hull_shape(); });
+}
+
+// For one large pair, hulls cost more than scans of the vertices.
+bool is_one_large_pair(PlacedGeometry& a, PlacedGeometry& b, bool alone) { return alone && (is_large(a) || is_large(b)); }
+
+double largest_coordinate(PlacedGeometry& a, PlacedGeometry& b) {
+  return larger(a.bounds().largest_coordinate(), b.bounds().largest_coordinate());
+}
+
 class Climber {
  public:
   Climber(const ClimbRequest& request, Rung first, Rung last, const Poll& poll)
@@ -109,15 +129,6 @@ class Climber {
     return climb_.boxes == BoxOutcome::apart;
   }
 
-  static bool is_large(PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; }
-
-  // Calls make(body) for both bodies; for large ones in parallel.
-  template <class Make>
-  void make_both(Make make) {
-    const unsigned threads = is_large(*request_.a) && is_large(*request_.b) ? 0 : 1;
-    parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? *request_.a : *request_.b); });
-  }
-
   PairResult ask_hulls(Query query) {
     return check_pair(*request_.a->hull_shape(), {}, *request_.b->hull_shape(), {}, query, request_.method);
   }
@@ -126,7 +137,6 @@ class Climber {
     const bool settled = timed(kHulls, [&] {
       climb_.both_convex = request_.a->shared().convex() && request_.b->shared().convex();
       if (!climb_.both_convex && serves_one_large_pair()) return points_are_apart();
-      make_both([](PlacedGeometry& body) { body.hull_shape(); });
       return climb_.both_convex ? convex_bodies_settle() : hulls_are_apart();
     });
     const bool overlap = climb_.both_convex && climb_.hulls->outcome == Outcome::penetrating;
@@ -148,25 +158,21 @@ class Climber {
   }
 
   bool convex_bodies_settle() {
-    climb_.hulls = ask_hulls(Query::depth);
+    climb_.hulls = hull_depth(*request_.a, *request_.b, request_.alone, request_.method);
     return climb_.hulls->outcome != Outcome::undecided;
   }
 
-  double largest_coordinate() const {
-    return larger(request_.a->bounds().largest_coordinate(), request_.b->bounds().largest_coordinate());
-  }
+  double largest_coordinate() const { return satcheck::largest_coordinate(*request_.a, *request_.b); }
 
-  // For one large pair, hulls cost more than scans of the vertices.
-  bool serves_one_large_pair() { return request_.alone && (is_large(*request_.a) || is_large(*request_.b)); }
+  bool serves_one_large_pair() { return is_one_large_pair(*request_.a, *request_.b, request_.alone); }
 
   bool points_are_apart() {
     climb_.hulls = hulls_apart(request_.a->mesh()->vertices, request_.b->mesh()->vertices, largest_coordinate());
-    if (climb_.hulls) return climb_.hulls->outcome == Outcome::separated;
-    make_both([](PlacedGeometry& body) { body.hull_shape(); });
-    return hulls_are_apart();
+    return climb_.hulls ? climb_.hulls->outcome == Outcome::separated : hulls_are_apart();
   }
 
   bool hulls_are_apart() {
+    make_hull_shapes(*request_.a, *request_.b);
     climb_.hulls = ask_hulls(Query::overlap);
     if (climb_.hulls->outcome != Outcome::separated) return false;
     climb_.hulls = ask_hulls(Query::distance);
@@ -187,7 +193,7 @@ class Climber {
 
   template <class Make>
   void make_surfaces(Make make) {
-    make_both([&](PlacedGeometry& body) { (&body == request_.a ? a_ : b_) = make(body); });
+    make_both(*request_.a, *request_.b, [&](PlacedGeometry& body) { (&body == request_.a ? a_ : b_) = make(body); });
   }
   void make_whole_surfaces() {
     make_surfaces([](PlacedGeometry& body) { return body.surface(); });
@@ -296,6 +302,14 @@ Verdict by_convex_hulls(const ClimbRequest& request, const Climb& climb, const P
 }
 
 }  // namespace
+
+PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, MethodChoice method) {
+  if (method == MethodChoice::automatic && is_one_large_pair(a, b, alone)) {
+    if (const auto depth = depth_of_hulls(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b))) return *depth;
+  }
+  make_hull_shapes(a, b);
+  return check_pair(*a.hull_shape(), {}, *b.hull_shape(), {}, Query::depth, method);
+}
 
 Climb climb(const ClimbRequest& request, Rung first, Rung last, const Poll& poll) {
   return Climber(request, first, last, poll).take();
