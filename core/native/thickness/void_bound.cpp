@@ -51,7 +51,7 @@ double bound_around(const CellVoid& of, const TwoBodies& bodies, double enough, 
   // A point that is this far beyond the cell's farthest one lies in the box.
   const Aabb around = bodies.widened(of.cell.box(), enough + less + 2 * rounding);
   PatchList listed;
-  if (of.near == nullptr) listed = bodies.patches_at(other, around, budget);
+  if (of.near == nullptr) listed = bodies.patches_near(other, around, budget, nullptr);
   const PatchList& near = of.near == nullptr ? listed : *of.near;
   BoxCorners corners(bodies, other, around, budget);
   double bound = -less;
