@@ -118,12 +118,12 @@ class Search {
       if (is_covered(box)) continue;
       split(box);
     }
+    result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
     if (!goal_.prove) {
       if (result_.stop == SearchStop::narrow) polish();
       snap();
     }
     result_.bound = result_.upper + (result_.has_way_out ? rounding(result_.way_out) : 0);
-    result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
     result_.lower = std::fmin(result_.lower, result_.upper);
     result_.work = budget_.spent();
     result_.sets = static_cast<std::uint32_t>(sets_.size());
@@ -274,6 +274,7 @@ class Search {
   void polish() {
     const std::uint64_t end = budget_.spent() + budget_.spent() / kPolishShare + kPolishWork;
     for (double step = kScanStep; result_.has_way_out && step > kLeastPolish; step *= 0.5) {
+      if (result_.lower >= result_.upper * (1 - kLeastPolish)) return;
       ask_meshes(result_.way_out * (1 - step));
       for (const Vec3 way : ways()) {
         const Vec3 t = in_plane(result_.way_out + way * (step * result_.upper));

@@ -27,6 +27,9 @@ constexpr std::size_t kBetweenPolls = 64;
 // Vertices of a body that are worth a thread of their own.
 constexpr std::size_t kManyVertices = 8192;
 
+// Vertices of a body of which a few rounds over all take less time than their hull.
+constexpr std::size_t kManyForHull = 256;
+
 // A body is cut to a region for one pair only if the region is at most this share of its box, because cutting has a
 // cost.
 constexpr double kLittle = 0.5;
@@ -47,7 +50,7 @@ double share_within(const Aabb& box, const Aabb& other) {
   return share;
 }
 
-bool is_large(PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; }
+bool is_large(PlacedGeometry& body, std::size_t many = kManyVertices) { return body.shared().mesh()->vertices.size() >= many; }
 
 // Calls make(body) for both bodies; for large ones in parallel.
 template <class Make>
@@ -60,8 +63,10 @@ void make_hull_shapes(PlacedGeometry& a, PlacedGeometry& b) {
   make_both(a, b, [](PlacedGeometry& body) { body.hull_shape(); });
 }
 
-// For one large pair, hulls cost more than scans of the vertices.
-bool is_one_large_pair(PlacedGeometry& a, PlacedGeometry& b, bool alone) { return alone && (is_large(a) || is_large(b)); }
+// Whether the hulls serve one pair only, and cost more than scans of the vertices.
+bool spares_hulls(PlacedGeometry& a, PlacedGeometry& b, bool alone) {
+  return alone && (is_large(a, kManyForHull) || is_large(b, kManyForHull));
+}
 
 double largest_coordinate(PlacedGeometry& a, PlacedGeometry& b) {
   return larger(a.bounds().largest_coordinate(), b.bounds().largest_coordinate());
@@ -136,7 +141,7 @@ class Climber {
   bool hulls_settle() {
     const bool settled = timed(kHulls, [&] {
       climb_.both_convex = request_.a->shared().convex() && request_.b->shared().convex();
-      if (!climb_.both_convex && serves_one_large_pair()) return points_are_apart();
+      if (!climb_.both_convex && spares_hulls(*request_.a, *request_.b, request_.alone)) return points_are_apart();
       return climb_.both_convex ? convex_bodies_settle() : hulls_are_apart();
     });
     const bool overlap = climb_.both_convex && climb_.hulls->outcome == Outcome::penetrating;
@@ -163,8 +168,6 @@ class Climber {
   }
 
   double largest_coordinate() const { return satcheck::largest_coordinate(*request_.a, *request_.b); }
-
-  bool serves_one_large_pair() { return is_one_large_pair(*request_.a, *request_.b, request_.alone); }
 
   bool points_are_apart() {
     climb_.hulls = hulls_apart(request_.a->mesh()->vertices, request_.b->mesh()->vertices, largest_coordinate());
@@ -208,7 +211,7 @@ class Climber {
   bool little_matters() {
     const auto can_be_cut = [](PlacedGeometry& body) { return body.shared().plain() && body.placed_as_in_file(); };
     PlacedGeometry &a = *request_.a, &b = *request_.b;
-    if (!serves_one_large_pair() || request_.wants_distance || !can_be_cut(a) || !can_be_cut(b)) return false;
+    if (!request_.alone || !(is_large(a) || is_large(b)) || request_.wants_distance || !can_be_cut(a) || !can_be_cut(b)) return false;
     return share_within(a.bounds(), reach_of(b)) < kLittle && share_within(b.bounds(), reach_of(a)) < kLittle;
   }
 
@@ -304,7 +307,7 @@ Verdict by_convex_hulls(const ClimbRequest& request, const Climb& climb, const P
 }  // namespace
 
 PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, MethodChoice method) {
-  if (method == MethodChoice::automatic && is_one_large_pair(a, b, alone)) {
+  if (method == MethodChoice::automatic && spares_hulls(a, b, alone)) {
     if (const auto depth = depth_of_hulls(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b))) return *depth;
   }
   make_hull_shapes(a, b);
