@@ -40,9 +40,10 @@ constexpr double kSnap = 1e-6;
 // Boxes smaller than this share of the known way out count as lying on a seam of two sets if no set contains them.
 constexpr double kSeam = 1e-5;
 
-// After so much work, spheres from 1 / kSmallestSphere of the known way out on are scanned for a shorter one. It does not
-// depend on the work that may be spent, so that more of it never gives a longer way out.
-constexpr std::uint64_t kScanAfter = 50'000'000;
+// After so much work, or 1 / kScanShare of what may be spent if that is less, spheres from 1 / kSmallestSphere of the known
+// way out on are scanned for a shorter one. A budget above the default one scans as late as that, and so never ends with a
+// longer way out.
+constexpr std::uint64_t kScanAfter = 50'000'000, kScanShare = 8;
 constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
 
 // A way out is shortened by steps of kScanStep of its length at first, and of this at last. That takes at most so many
@@ -99,7 +100,7 @@ class Search {
         result_.stop = SearchStop::work_spent;
         break;
       }
-      if (!scanned_ && budget_.spent() >= kScanAfter) {
+      if (!scanned_ && budget_.spent() >= std::min(kScanAfter, goal_.work / kScanShare)) {
         scan_spheres(std::fmax(reached_, result_.upper / kSmallestSphere));
         push(std::move(box));
         continue;
