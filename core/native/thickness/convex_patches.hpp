@@ -20,11 +20,11 @@ inline constexpr std::uint32_t kNoPatch = 0xffffffff;
 
 struct ConvexPatches {
   std::vector<Patch> patches;
-  std::vector<Aabb> boxes;               // of the patches
   std::vector<Vec3> outlines;            // counter-clockwise seen from the side of the normal
   std::vector<std::uint32_t> triangles;  // numbers in the mesh
   std::vector<std::uint32_t> patch_of;   // each triangle of the mesh; kNoPatch: none
 
+  Aabb box(const Patch& patch) const;
   // The distance from p to the patch, rounded: never below the true one by more than rounding.
   double distance(const Patch& patch, Vec3 p) const { return norm(nearest(patch, p) - p); }
   // A point of the patch, the nearest one up to rounding.

@@ -82,12 +82,15 @@ Aabb TwoBodies::widened(const Aabb& box, double reach) const {
 void TwoBodies::make_patches(const Aabb& box, double reach, double flatness) {
   for (int body = 0; body < 2; ++body) {
     const Surface& from = surface(body);
-    std::vector<std::uint32_t> triangles;
+    std::vector<bool> is_near(from.mesh.triangles.size(), false);
     visit_box(from.bvh, from.mesh, box.widened(reach), [&](std::uint32_t t) {
-      if (counts(body, t)) triangles.push_back(t);
+      is_near[t] = counts(body, t);
       return true;
     });
-    std::sort(triangles.begin(), triangles.end());
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t t = 0; t < is_near.size(); ++t) {
+      if (is_near[t]) triangles.push_back(t);
+    }
     patches_[static_cast<std::size_t>(body)] = convex_patches(from.mesh, triangles, flatness);
   }
 }
@@ -148,7 +151,7 @@ double TwoBodies::farthest(int body, const Aabb& box, Vec3 normal, const PatchLi
   if (near.size() >= kManyPatches) return farthest_in_tree(body, box, normal, least, enough, budget);
   const auto compare = [&](std::uint32_t number) {
     const Patch& from = patch(body, number);
-    const Aabb& around = this->box(body, number);
+    const Aabb around = this->box(body, number);
     if (dot(normal, farthest_corner(around, normal)) <= least || !meet(around, box)) return;
     const Vec3* outline = patches(body).outlines.data() + from.first;
     least = larger(least, farthest_in({outline, from.count}, box, normal, enough) + from.slack);
