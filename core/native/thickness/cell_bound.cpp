@@ -192,7 +192,7 @@ class CellBound {
       if (least - patch.slack >= side.height + (along_axis ? 0 : close)) return false;
     }
     Range heights;
-    for (const Cell::Corner& corner : cell_.corners) heights.include(dot(patch.normal, corner.at - patch.origin));
+    for (const Cell::Corner& corner : cell_.corners) heights.include(dot(patch.normal, corner.at - bodies_.patches(body).origin(patch)));
     const double slack = patch.slack + close;
     return !(heights.low > slack || heights.high < -slack);
   }
@@ -277,7 +277,7 @@ class CellBound {
       const Patch& patch = bodies_.patch(body, i);
       const double distance = bodies_.patches(body).distance(patch, p);
       if (distance > best.depth + tie) return;
-      const double in_front = dot(patch.normal, p - patch.origin);
+      const double in_front = dot(patch.normal, p - bodies_.patches(body).origin(patch));
       if (distance < best.depth - tie || in_front > front) {
         front = in_front;
         best.patch = i;

@@ -141,7 +141,7 @@ class Merging {
   // A patch of the set with this representative; its triangles are listed later.
   void append(ConvexPatches& result, std::uint32_t i, std::uint32_t first_triangle, std::uint32_t triangle_count) const {
     const Outline vertices = outline(i);
-    Patch patch{normals_[i], mesh_.vertices[vertices[0]], static_cast<std::uint32_t>(result.outlines.size()),
+    Patch patch{normals_[i], static_cast<std::uint32_t>(result.outlines.size()),
                 static_cast<std::uint32_t>(vertices.size()), first_triangle, triangle_count, 0};
     for (const std::uint32_t v : vertices) result.outlines.push_back(mesh_.vertices[v]);
     patch.slack = triangle_count > 1 ? 2 * deviation(i, vertices) : 0;
@@ -180,7 +180,7 @@ Vec3 ConvexPatches::nearest(const Patch& patch, Vec3 p) const {
   const auto edge = [&](std::size_t i) { return outline[i + 1 < outline.size() ? i + 1 : 0] - outline[i]; };
   bool beside = norm_squared(patch.normal) == 0;
   for (std::size_t i = 0; i < outline.size() && !beside; ++i) beside = dot(cross(patch.normal, edge(i)), p - outline[i]) < 0;
-  if (!beside) return p - patch.normal * dot(patch.normal, p - patch.origin);
+  if (!beside) return p - patch.normal * dot(patch.normal, p - origin(patch));
   // All edges, not only those that p is beyond: of two almost on one line, rounding may choose the far one.
   Vec3 best;
   double least = INFINITY;

@@ -196,7 +196,7 @@ std::optional<Column> TwoBodies::plane_column(int body, std::uint32_t number, co
   if (norm_squared(from.normal) == 0) return std::nullopt;
   for (const double sign : {1.0, -1.0}) {
     const Vec3 normal = from.normal * sign;
-    const double plane = dot(normal, from.origin) + from.slack;
+    const double plane = dot(normal, patches(body).origin(from)) + from.slack;
     double height = farthest(body, box, normal, near, plane, plane + tolerance, budget);
     if (height > plane + tolerance) continue;
     height += rounding_;
