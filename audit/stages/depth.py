@@ -182,7 +182,7 @@ def way_out_of_hulls(pair: Pair) -> WayOut:
     boxes = WayOut(length, length, normal, "world boxes")
     if not pair.may("hull"):
         return boxes
-    hulls = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
+    hulls = core.hull_depth(pair.a.geometry, pair.b.geometry, pair.alone)
     if hulls.distance is None or hulls.lower is None or hulls.normal is None:
         return boxes
     if hulls.outcome == "touching":

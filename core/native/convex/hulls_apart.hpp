@@ -1,4 +1,4 @@
-// Decides whether the hulls of two large point sets are apart, without computing the hulls.
+// Decides whether the hulls of two large point sets are apart, and how deep they overlap, without computing the hulls.
 #pragma once
 
 #include <optional>
@@ -12,5 +12,9 @@ namespace satcheck {
 // point, and usually within a hundredth of the distance. Empty if it takes too many rounds. largest: the largest
 // |coordinate|. Neither set is empty.
 std::optional<PairResult> hulls_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest);
+
+// What check_pair() with Query::depth says of the hulls, with bounds as close. Empty if it takes too many rounds, or if the
+// hulls touch.
+std::optional<PairResult> depth_of_hulls(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest);
 
 }  // namespace satcheck

@@ -40,9 +40,16 @@ constexpr double kSnap = 1e-6;
 // Boxes smaller than this share of the known way out count as lying on a seam of two sets if no set contains them.
 constexpr double kSeam = 1e-5;
 
-// After 1 / kScanAfter of the work, spheres from 1 / kScanAfter of the known way out on are scanned for a shorter one.
-constexpr std::uint64_t kScanAfter = 8;
+// After so much work, or 1 / kScanShare of what may be spent if that is less, spheres from 1 / kSmallestSphere of the known
+// way out on are scanned for a shorter one. A budget above the default one scans as late as that, and so never ends with a
+// longer way out.
+constexpr std::uint64_t kScanAfter = 50'000'000, kScanShare = 8;
 constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
+
+// A way out is shortened by steps of kScanStep of its length at first, and of this at last. That takes at most so many
+// steps of work, and this share of those before.
+constexpr double kLeastPolish = 2e-4;
+constexpr std::uint64_t kPolishWork = 2'000'000, kPolishShare = 8;
 
 // Rounding of the norm of a point.
 constexpr double kNormError = 4 * kUnitRoundoff;
@@ -93,7 +100,7 @@ class Search {
         result_.stop = SearchStop::work_spent;
         break;
       }
-      if (!scanned_ && budget_.spent() >= goal_.work / kScanAfter) {
+      if (!scanned_ && budget_.spent() >= std::min(kScanAfter, goal_.work / kScanShare)) {
         scan_spheres(std::fmax(reached_, result_.upper / kSmallestSphere));
         push(std::move(box));
         continue;
@@ -112,9 +119,12 @@ class Search {
       if (is_covered(box)) continue;
       split(box);
     }
-    if (!goal_.prove) snap();
-    result_.bound = result_.upper + (result_.has_way_out ? rounding(result_.way_out) : 0);
     result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
+    if (!goal_.prove) {
+      if (result_.stop == SearchStop::narrow) polish();
+      snap();
+    }
+    result_.bound = result_.upper + (result_.has_way_out ? rounding(result_.way_out) : 0);
     result_.lower = std::fmin(result_.lower, result_.upper);
     result_.work = budget_.spent();
     result_.sets = static_cast<std::uint32_t>(sets_.size());
@@ -259,6 +269,20 @@ class Search {
     if (!(proof.set.exit(t).depth > kDeeper * known)) return false;
     add(std::move(proof));
     return true;
+  }
+
+  // Shortens the way out by steps in all directions: the interval may be narrow before it is the shortest one near it.
+  void polish() {
+    const std::uint64_t end = budget_.spent() + budget_.spent() / kPolishShare + kPolishWork;
+    for (double step = kScanStep; result_.has_way_out && step > kLeastPolish; step *= 0.5) {
+      if (result_.lower >= result_.upper * (1 - kLeastPolish)) return;
+      ask_meshes(result_.way_out * (1 - step));
+      for (const Vec3 way : ways()) {
+        const Vec3 t = in_plane(result_.way_out + way * (step * result_.upper));
+        if (budget_.is_spent() || budget_.spent() > end) return;
+        if (norm(t) < result_.upper && !sets_.holds(t) && relation_at(t).is_free()) take(t);
+      }
+    }
   }
 
   // Corrects a way out along the normal of a face to end exactly where a corner leaves the plane of that face.

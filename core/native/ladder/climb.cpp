@@ -27,6 +27,9 @@ constexpr std::size_t kBetweenPolls = 64;
 // Vertices of a body that are worth a thread of their own.
 constexpr std::size_t kManyVertices = 8192;
 
+// Vertices of a body of which a few rounds over all take less time than their hull.
+constexpr std::size_t kManyForHull = 256;
+
 // A body is cut to a region for one pair only if the region is at most this share of its box, because cutting has a
 // cost.
 constexpr double kLittle = 0.5;
@@ -45,6 +48,28 @@ double share_within(const Aabb& box, const Aabb& other) {
     share *= size > 0 ? std::fmax(common, 0) / size : 1;
   }
   return share;
+}
+
+bool is_large(PlacedGeometry& body, std::size_t many = kManyVertices) { return body.shared().mesh()->vertices.size() >= many; }
+
+// Calls make(body) for both bodies; for large ones in parallel.
+template <class Make>
+void make_both(PlacedGeometry& a, PlacedGeometry& b, Make make) {
+  const unsigned threads = is_large(a) && is_large(b) ? 0 : 1;
+  parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? a : b); });
+}
+
+void make_hull_shapes(PlacedGeometry& a, PlacedGeometry& b) {
+  make_both(a, b, [](PlacedGeometry& body) { body.hull_shape(); });
+}
+
+// Whether the hulls serve one pair only, and cost more than scans of the vertices.
+bool spares_hulls(PlacedGeometry& a, PlacedGeometry& b, bool alone) {
+  return alone && (is_large(a, kManyForHull) || is_large(b, kManyForHull));
+}
+
+double largest_coordinate(PlacedGeometry& a, PlacedGeometry& b) {
+  return larger(a.bounds().largest_coordinate(), b.bounds().largest_coordinate());
 }
 
 class Climber {
@@ -109,15 +134,6 @@ class Climber {
     return climb_.boxes == BoxOutcome::apart;
   }
 
-  static bool is_large(PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; }
-
-  // Calls make(body) for both bodies; for large ones in parallel.
-  template <class Make>
-  void make_both(Make make) {
-    const unsigned threads = is_large(*request_.a) && is_large(*request_.b) ? 0 : 1;
-    parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? *request_.a : *request_.b); });
-  }
-
   PairResult ask_hulls(Query query) {
     return check_pair(*request_.a->hull_shape(), {}, *request_.b->hull_shape(), {}, query, request_.method);
   }
@@ -125,8 +141,7 @@ class Climber {
   bool hulls_settle() {
     const bool settled = timed(kHulls, [&] {
       climb_.both_convex = request_.a->shared().convex() && request_.b->shared().convex();
-      if (!climb_.both_convex && serves_one_large_pair()) return points_are_apart();
-      make_both([](PlacedGeometry& body) { body.hull_shape(); });
+      if (!climb_.both_convex && spares_hulls(*request_.a, *request_.b, request_.alone)) return points_are_apart();
       return climb_.both_convex ? convex_bodies_settle() : hulls_are_apart();
     });
     const bool overlap = climb_.both_convex && climb_.hulls->outcome == Outcome::penetrating;
@@ -148,25 +163,19 @@ class Climber {
   }
 
   bool convex_bodies_settle() {
-    climb_.hulls = ask_hulls(Query::depth);
+    climb_.hulls = hull_depth(*request_.a, *request_.b, request_.alone, request_.method);
     return climb_.hulls->outcome != Outcome::undecided;
   }
 
-  double largest_coordinate() const {
-    return larger(request_.a->bounds().largest_coordinate(), request_.b->bounds().largest_coordinate());
-  }
-
-  // For one large pair, hulls cost more than scans of the vertices.
-  bool serves_one_large_pair() { return request_.alone && (is_large(*request_.a) || is_large(*request_.b)); }
+  double largest_coordinate() const { return satcheck::largest_coordinate(*request_.a, *request_.b); }
 
   bool points_are_apart() {
     climb_.hulls = hulls_apart(request_.a->mesh()->vertices, request_.b->mesh()->vertices, largest_coordinate());
-    if (climb_.hulls) return climb_.hulls->outcome == Outcome::separated;
-    make_both([](PlacedGeometry& body) { body.hull_shape(); });
-    return hulls_are_apart();
+    return climb_.hulls ? climb_.hulls->outcome == Outcome::separated : hulls_are_apart();
   }
 
   bool hulls_are_apart() {
+    make_hull_shapes(*request_.a, *request_.b);
     climb_.hulls = ask_hulls(Query::overlap);
     if (climb_.hulls->outcome != Outcome::separated) return false;
     climb_.hulls = ask_hulls(Query::distance);
@@ -187,7 +196,7 @@ class Climber {
 
   template <class Make>
   void make_surfaces(Make make) {
-    make_both([&](PlacedGeometry& body) { (&body == request_.a ? a_ : b_) = make(body); });
+    make_both(*request_.a, *request_.b, [&](PlacedGeometry& body) { (&body == request_.a ? a_ : b_) = make(body); });
   }
   void make_whole_surfaces() {
     make_surfaces([](PlacedGeometry& body) { return body.surface(); });
@@ -202,7 +211,7 @@ class Climber {
   bool little_matters() {
     const auto can_be_cut = [](PlacedGeometry& body) { return body.shared().plain() && body.placed_as_in_file(); };
     PlacedGeometry &a = *request_.a, &b = *request_.b;
-    if (!serves_one_large_pair() || request_.wants_distance || !can_be_cut(a) || !can_be_cut(b)) return false;
+    if (!request_.alone || !(is_large(a) || is_large(b)) || request_.wants_distance || !can_be_cut(a) || !can_be_cut(b)) return false;
     return share_within(a.bounds(), reach_of(b)) < kLittle && share_within(b.bounds(), reach_of(a)) < kLittle;
   }
 
@@ -296,6 +305,14 @@ Verdict by_convex_hulls(const ClimbRequest& request, const Climb& climb, const P
 }
 
 }  // namespace
+
+PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, MethodChoice method) {
+  if (method == MethodChoice::automatic && spares_hulls(a, b, alone)) {
+    if (const auto depth = depth_of_hulls(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b))) return *depth;
+  }
+  make_hull_shapes(a, b);
+  return check_pair(*a.hull_shape(), {}, *b.hull_shape(), {}, Query::depth, method);
+}
 
 Climb climb(const ClimbRequest& request, Rung first, Rung last, const Poll& poll) {
   return Climber(request, first, last, poll).take();

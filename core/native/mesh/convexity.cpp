@@ -10,6 +10,10 @@
 // the way from a corner v to c grows at least linearly, so the core begins within |c - v| d / D of v.
 // By convexity, the greatest of these distances over the corners bounds the distance from the hull to the core. d alone
 // is not enough: every triangle of a thin plate is near the plane of its top.
+//
+// Most convex meshes need no hull: Kurt Mehlhorn et al., "Checking Geometric Programs or Verification of Geometric
+// Structures" (1999). A point is below the planes of all triangles, and a ray from it crosses one triangle. Seen from the
+// point, the surface then covers each direction once. If no edge bends inward either, the solid is convex.
 #include "convex/convex_hull.hpp"
 #include "mesh/convexity.hpp"
 
@@ -167,7 +171,7 @@ Vec3 mean(const std::vector<Vec3>& points) {
 // Whether corners lie on both sides of the plane of a triangle, so that the triangle is not in the boundary of the
 // hull. Only a few planes are tried: if the mesh is dented, a few triangles usually show it.
 bool is_dented(const Mesh& mesh) {
-  constexpr std::size_t kPlanes = 32;
+  constexpr std::size_t kPlanes = 8;
   const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / kPlanes);
   for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
     const Corners t = corners(mesh, static_cast<std::uint32_t>(i));
@@ -183,17 +187,40 @@ bool is_dented(const Mesh& mesh) {
   return false;
 }
 
-// Whether an edge of two triangles bends inward, so that the surface is not its hull.
-bool has_reflex_edge(const Mesh& welded) {
+// inward: some edge of two triangles does, so that the surface is not its hull. outward: every edge has two triangles
+// that run it in opposite directions, and none bends inward.
+enum class Bends : std::uint8_t { inward, outward, unknown };
+
+Bends bends_of(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  Bends bends = Bends::outward;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges.half_edges(e);
+    if (h.size() != 2 || edges.balance(e) != 0) bends = Bends::unknown;
     if (h.size() != 2) continue;
     const Corners t = corners(welded, h[0] / 3);
     const Vec3 apex = corners(welded, h[1] / 3)[(h[1] + 2) % 3];
-    if (orientation(t[0], t[1], t[2], apex) > 0) return true;
+    if (orientation(t[0], t[1], t[2], apex) > 0) return Bends::inward;
   }
-  return false;
+  return bends;
+}
+
+// Along no edge of common meshes, so that the ray meets none.
+constexpr Vec3 kAskew{0.71, 0.43, 0.57};
+
+// Whether the point is below the planes of all triangles, and a ray from it crosses one of them.
+bool is_seen_once_from(const Mesh& mesh, Vec3 point) {
+  const Vec3 ahead = point + kAskew * norm(bounds_of(mesh.vertices).size());
+  std::size_t crossed = 0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Corners c = corners(mesh, t);
+    if (orientation(c[0], c[1], c[2], point) >= 0) return false;
+    int sides = 1;
+    for (std::size_t i = 0; i < 3 && sides > 0; ++i) sides = orientation(point, ahead, c[i], c[(i + 1) % 3]);
+    if (sides == 0) return false;
+    if (sides > 0) ++crossed;
+  }
+  return crossed == 1;
 }
 
 }  // namespace
@@ -201,7 +228,11 @@ bool has_reflex_edge(const Mesh& welded) {
 double convexity_defect(const Mesh& mesh, double limit, Budget* budget) {
   if (limit == 0 && is_dented(mesh)) return INFINITY;
   const Mesh welded = weld(mesh);
-  if (limit == 0 && has_reflex_edge(welded)) return INFINITY;
+  if (limit == 0) {
+    const Bends bends = bends_of(welded);
+    if (bends == Bends::inward) return INFINITY;
+    if (bends == Bends::outward && is_seen_once_from(welded, mean(welded.vertices))) return 0;
+  }
   const Topology topology = measure_topology(welded);
   if (!topology.solid || topology.volume <= 0) return INFINITY;
   const Polytope hull = convex_hull(welded.vertices, budget);

@@ -29,34 +29,87 @@ bool holds_beside_all(const Surface& solid, Holds holds) {
   return all_hold;
 }
 
-// The triangles without copies that face the same way.
-std::vector<std::array<std::uint32_t, 3>> distinct_triangles(const Mesh& mesh) {
-  std::vector<std::array<std::uint32_t, 3>> distinct;
-  for (const auto& t : mesh.triangles) {
-    std::array<std::uint32_t, 3> corners{t[0], t[1], t[2]};
-    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
-    distinct.push_back(corners);
-  }
-  sort_once(distinct);
-  return distinct;
+// The signs of the components of a normal, exact, as a number below 27. That of the opposite normal is 26 less this.
+std::uint32_t way_of(const Corners& c) {
+  std::uint32_t way = 0;
+  for (const int axis : {0, 1, 2}) way = 3 * way + static_cast<std::uint32_t>(orientation_2d(c[0], c[1], c[2], axis) + 1);
+  return way;
 }
+constexpr std::uint32_t kOpposite = 26, kNoWay = 13;
+
+// The triangles near which others face the opposite way, by the signs of their normals. Most of a smooth surface faces
+// the same way as all that is near, so that whole nodes of its tree are left out.
+class OppositeWays {
+ public:
+  explicit OppositeWays(const Surface& solid) : solid_(solid), ways_(solid.bvh.nodes.size()), opposite_(ways_.size()) {
+    const auto& nodes = solid.bvh.nodes;
+    for (std::size_t n = nodes.size(); n-- > 0;) {  // children come after their parents
+      if (!nodes[n].is_leaf()) {
+        ways_[n] = ways_[nodes[n].first] | ways_[nodes[n].first + 1];
+        opposite_[n] = opposite_[nodes[n].first] | opposite_[nodes[n].first + 1];
+      }
+      for (std::uint32_t i = nodes[n].first; i < nodes[n].first + nodes[n].count; ++i) {
+        const std::uint32_t way = way_of(corners(solid.mesh, solid.bvh.order[i]));
+        if (way == kNoWay) continue;
+        ways_[n] |= 1u << way;
+        opposite_[n] |= 1u << (kOpposite - way);
+      }
+    }
+  }
+
+  // Without copies that face the same way.
+  std::vector<Triangle> triangles() const {
+    std::vector<Triangle> list;
+    std::vector<std::uint32_t> stack{0};
+    while (!stack.empty()) {
+      const BvhNode& node = solid_.bvh.nodes[stack.back()];
+      const std::uint32_t opposite = opposite_[stack.back()];
+      stack.pop_back();
+      if (!is_near(node.box, opposite)) continue;
+      if (!node.is_leaf()) stack.insert(stack.end(), {node.first, node.first + 1});
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        Triangle t = solid_.mesh.triangles[solid_.bvh.order[i]];
+        std::rotate(t.begin(), std::ranges::min_element(t), t.end());
+        list.push_back(t);
+      }
+    }
+    sort_once(list);
+    return list;
+  }
+
+ private:
+  // Whether a leaf that meets the box has one of these ways.
+  bool is_near(const Aabb& box, std::uint32_t ways) const {
+    std::vector<std::uint32_t> stack{0};
+    while (!stack.empty()) {
+      const std::uint32_t n = stack.back();
+      const BvhNode& node = solid_.bvh.nodes[n];
+      stack.pop_back();
+      if ((ways_[n] & ways) == 0 || !meet(node.box, box)) continue;
+      if (node.is_leaf()) return true;
+      stack.insert(stack.end(), {node.first, node.first + 1});
+    }
+    return false;
+  }
+
+  const Surface& solid_;
+  std::vector<std::uint32_t> ways_, opposite_;  // of the triangles of each node, a bit each
+};
 
 // Whether two triangles that may overlap lie in one plane and face away from each other. Winding numbers differ by one
 // across a triangle, so that only the other triangles of its plane can make both sides equal.
 bool has_opposite_triangles(const Surface& solid) {
   const Mesh& mesh = solid.mesh;
-  for (const auto& [p, q, r] : distinct_triangles(mesh)) {
+  if (mesh.triangles.empty()) return false;
+  for (const auto& [p, q, r] : OppositeWays(solid).triangles()) {
     const Corners c{mesh.vertices[p], mesh.vertices[q], mesh.vertices[r]};
+    const std::uint32_t way = way_of(c);
+    if (way == kNoWay) continue;
     const TrianglePlane plane(c[0], c[1], c[2]);
-    const int axis = projection_axis(rounded_normal(c[0], c[1], c[2])), turn = orientation_2d(c[0], c[1], c[2], axis);
-    if (turn == 0) {
-      if (!collinear(c[0], c[1], c[2])) return true;  // a normal that has no certain axis
-      continue;
-    }
     const bool none = visit_box(solid.bvh, mesh, bounds_of(c), [&](std::uint32_t other) {
       const Corners d = corners(mesh, other);
       const auto in_plane = [&](Vec3 p) { return plane.side(p) == 0; };
-      return orientation_2d(d[0], d[1], d[2], axis) != -turn || !std::all_of(d.begin(), d.end(), in_plane);
+      return way_of(d) != kOpposite - way || !std::all_of(d.begin(), d.end(), in_plane);
     });
     if (!none) return true;
   }

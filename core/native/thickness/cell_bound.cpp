@@ -89,7 +89,8 @@ class CellBound {
     return bodies_.widened(box_, open_.bound + bodies_.less(body) + 2 * bodies_.rounding());
   }
 
-  // The patches of the body near the cell, once they are listed, and those that may have a point in its interior.
+  // The patches of the body near the cell, once they are listed, and those that may have a point in its interior, unless
+  // they are very many.
   const PatchList& near_to(int body) const { return (*open_.near)[static_cast<std::size_t>(body)]; }
   const PatchList& met_by(int body) const { return *open_.met[static_cast<std::size_t>(body)]; }
 
@@ -97,7 +98,14 @@ class CellBound {
   bool is_outside(int body) {
     const auto side = static_cast<std::size_t>(body);
     if (open_.inside[side]) return false;
-    if (!open_.met[side]) open_.met[side] = bodies_.patches_at(body, box_, budget_);
+    if (!open_.met[side]) {
+      PatchList near = bodies_.patches_near(body, box_, budget_, nullptr);
+      if (bodies_.may_be_part(near)) {
+        if (std::any_of(near.begin(), near.end(), [&](std::uint32_t i) { return may_meet(body, i); })) return false;
+        near = bodies_.patches_at(body, box_, budget_);
+      }
+      open_.met[side] = std::move(near);
+    }
     PatchList& met = *open_.met[side];
     budget_.spend(kFilterWork * met.size());
     std::erase_if(met, [&](std::uint32_t i) { return !may_meet(body, i); });
@@ -130,16 +138,8 @@ class CellBound {
   void list_patches() {
     auto lists = std::make_shared<PatchLists>();
     for (int body = 0; body < 2; ++body) {
-      const auto side = static_cast<std::size_t>(body);
-      const Aabb around = reach_of(body);
-      if (!open_.near) {
-        (*lists)[side] = bodies_.patches_at(body, around, budget_);
-        continue;
-      }
-      const PatchList& known = near_to(body);
-      budget_.spend(kFilterWork * known.size());
-      std::copy_if(known.begin(), known.end(), std::back_inserter((*lists)[side]),
-                   [&](std::uint32_t i) { return meet(bodies_.box(body, i), around); });
+      const PatchList* known = open_.near ? &near_to(body) : nullptr;
+      (*lists)[static_cast<std::size_t>(body)] = bodies_.patches_near(body, reach_of(body), budget_, known);
     }
     open_.near = std::move(lists);
   }
@@ -148,11 +148,10 @@ class CellBound {
   void bound_by_voids() {
     for (int body = 0; body < 2; ++body) {
       const auto side = static_cast<std::size_t>(body);
-      const PatchList& met = met_by(body);
-      if (met.empty() || met.size() > kCrowd) continue;
+      if (!open_.met[side] || met_by(body).empty() || met_by(body).size() > kCrowd) continue;
       const auto hollow = hollow_of(body);
       if (!hollow) continue;
-      const CellVoid here{cell_, body, met, *hollow, open_.near ? &(*open_.near)[1 - side] : nullptr};
+      const CellVoid here{cell_, body, met_by(body), *hollow, open_.near ? &(*open_.near)[1 - side] : nullptr};
       const double bound = bound_around(here, bodies_, kWorthwhile * std::fmin(open_.bound, radius_), budget_);
       open_.bound = std::fmin(open_.bound, bound);
     }
@@ -193,7 +192,7 @@ class CellBound {
       if (least - patch.slack >= side.height + (along_axis ? 0 : close)) return false;
     }
     Range heights;
-    for (const Cell::Corner& corner : cell_.corners) heights.include(dot(patch.normal, corner.at - patch.origin));
+    for (const Cell::Corner& corner : cell_.corners) heights.include(dot(patch.normal, corner.at - bodies_.patches(body).origin(patch)));
     const double slack = patch.slack + close;
     return !(heights.low > slack || heights.high < -slack);
   }
@@ -278,7 +277,7 @@ class CellBound {
       const Patch& patch = bodies_.patch(body, i);
       const double distance = bodies_.patches(body).distance(patch, p);
       if (distance > best.depth + tie) return;
-      const double in_front = dot(patch.normal, p - patch.origin);
+      const double in_front = dot(patch.normal, p - bodies_.patches(body).origin(patch));
       if (distance < best.depth - tie || in_front > front) {
         front = in_front;
         best.patch = i;
@@ -296,7 +295,8 @@ class CellBound {
     } else {
       const Surface& surface = bodies_.surface(body);
       const double reach = nearest_point(surface, p, &budget_).distance + 2 * tie;
-      visit_box(surface.bvh, surface.mesh, at.widened(reach), [&](std::uint32_t t) {
+      const auto is_near = [&](const Aabb& box) { return box_distance_squared(at, box) <= reach * reach; };
+      visit_where(surface.bvh, surface.mesh, is_near, [&](std::uint32_t t) {
         const std::uint32_t i = bodies_.patches(body).patch_of[t];
         if (i != kNoPatch) compare(i);
         return true;
@@ -321,7 +321,7 @@ class CellBound {
 
   // Where the cell is split: along the void that the game's point lies in, or where the gap is.
   void choose_cut() {
-    if (outside_ >= 0) {
+    if (outside_ >= 0 && open_.met[static_cast<std::size_t>(outside_)]) {
       const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
       open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_by(outside_), point_, layer, budget_);
     }

@@ -42,6 +42,7 @@ class Chooser {
   }
 
   const Patch& patch_of(const CellGap::Term& term) const { return gap_.bodies.patch(term.column.body, term.column.patch); }
+  Vec3 origin_of(const CellGap::Term& term) const { return gap_.bodies.patches(term.column.body).origin(patch_of(term)); }
 
   double sum_at(Vec3 p) const {
     double sum = 0;
@@ -76,7 +77,7 @@ class Chooser {
   void take_planes() {
     for (const CellGap::Term& term : gap_.terms) {
       const Patch& patch = patch_of(term);
-      take(gap_at_plane(term), [&] { return HalfSpace{patch.normal, dot(patch.normal, patch.origin)}; });
+      take(gap_at_plane(term), [&] { return HalfSpace{patch.normal, dot(patch.normal, origin_of(term))}; });
     }
   }
 
@@ -85,7 +86,7 @@ class Chooser {
     const Patch& patch = patch_of(term);
     double sum = 0, sum_of_sizes = 0;
     for (std::size_t k = 0; k < cell_.corners.size(); ++k) {
-      const double s = gap_.shares[k] * dot(patch.normal, cell_.corners[k].at - patch.origin);
+      const double s = gap_.shares[k] * dot(patch.normal, cell_.corners[k].at - origin_of(term));
       sum += s;
       sum_of_sizes += std::fabs(s);
     }

@@ -42,6 +42,10 @@ class Merging {
     result.patch_of.assign(mesh_.triangles.size(), kNoPatch);
     std::vector<std::uint32_t> sizes(triangles_.size(), 0);
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) ++sizes[sets_.find(i)];
+    std::size_t corners = 0;
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) corners += sizes[i] == 0 ? 0 : outline(i).size();
+    result.patches.reserve(triangles_.size() - static_cast<std::size_t>(std::count(sizes.begin(), sizes.end(), 0u)));
+    result.outlines.reserve(corners);
     std::uint32_t first = 0;
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
       if (sizes[i] == 0) continue;
@@ -137,15 +141,10 @@ class Merging {
   // A patch of the set with this representative; its triangles are listed later.
   void append(ConvexPatches& result, std::uint32_t i, std::uint32_t first_triangle, std::uint32_t triangle_count) const {
     const Outline vertices = outline(i);
-    Patch patch{normals_[i], mesh_.vertices[vertices[0]], static_cast<std::uint32_t>(result.outlines.size()),
+    Patch patch{normals_[i], static_cast<std::uint32_t>(result.outlines.size()),
                 static_cast<std::uint32_t>(vertices.size()), first_triangle, triangle_count, 0};
-    Aabb& box = result.boxes.emplace_back();
-    for (const std::uint32_t v : vertices) {
-      result.outlines.push_back(mesh_.vertices[v]);
-      box.include(mesh_.vertices[v]);
-    }
+    for (const std::uint32_t v : vertices) result.outlines.push_back(mesh_.vertices[v]);
     patch.slack = triangle_count > 1 ? 2 * deviation(i, vertices) : 0;
-    box = box.widened(patch.slack);
     result.patches.push_back(patch);
   }
 
@@ -170,12 +169,18 @@ class Merging {
 
 }  // namespace
 
+Aabb ConvexPatches::box(const Patch& patch) const {
+  Aabb box;
+  for (std::uint32_t i = patch.first; i < patch.first + patch.count; ++i) box.include(outlines[i]);
+  return box.widened(patch.slack);
+}
+
 Vec3 ConvexPatches::nearest(const Patch& patch, Vec3 p) const {
   const std::span<const Vec3> outline{outlines.data() + patch.first, patch.count};
   const auto edge = [&](std::size_t i) { return outline[i + 1 < outline.size() ? i + 1 : 0] - outline[i]; };
   bool beside = norm_squared(patch.normal) == 0;
   for (std::size_t i = 0; i < outline.size() && !beside; ++i) beside = dot(cross(patch.normal, edge(i)), p - outline[i]) < 0;
-  if (!beside) return p - patch.normal * dot(patch.normal, p - patch.origin);
+  if (!beside) return p - patch.normal * dot(patch.normal, p - origin(patch));
   // All edges, not only those that p is beyond: of two almost on one line, rounding may choose the far one.
   Vec3 best;
   double least = INFINITY;

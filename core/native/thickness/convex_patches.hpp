@@ -9,7 +9,6 @@ namespace satcheck {
 
 struct Patch {
   Vec3 normal;          // unit; zero for a triangle without area
-  Vec3 origin;          // a corner
   std::uint32_t first;  // place of its outline in `outlines`
   std::uint32_t count;  // corners of its outline
   std::uint32_t first_triangle, triangle_count;  // place in `triangles`
@@ -20,11 +19,12 @@ inline constexpr std::uint32_t kNoPatch = 0xffffffff;
 
 struct ConvexPatches {
   std::vector<Patch> patches;
-  std::vector<Aabb> boxes;               // of the patches
   std::vector<Vec3> outlines;            // counter-clockwise seen from the side of the normal
   std::vector<std::uint32_t> triangles;  // numbers in the mesh
   std::vector<std::uint32_t> patch_of;   // each triangle of the mesh; kNoPatch: none
 
+  Aabb box(const Patch& patch) const;
+  Vec3 origin(const Patch& patch) const { return outlines[patch.first]; }  // a corner
   // The distance from p to the patch, rounded: never below the true one by more than rounding.
   double distance(const Patch& patch, Vec3 p) const { return norm(nearest(patch, p) - p); }
   // A point of the patch, the nearest one up to rounding.

@@ -109,7 +109,7 @@ class Search {
     }
     root.cell = make_cell(axes_, low, high, goal_.across, bodies_.scale());
     const double reach = root.bound + std::fmax(bodies_.less(0), bodies_.less(1)) + 2 * bodies_.rounding();
-    bodies_.make_patches(root.cell.box(), reach, kFlatness * half, budget_);
+    bodies_.make_patches(root.cell.box(), reach, kFlatness * half);
     box_ = box;
     if (record_) root.node = record_->add_root();
     Share share{{}, {}, best_};
@@ -130,10 +130,10 @@ class Search {
     Budget budget{};  // counted in add(), on the thread of the search
   };
 
-  // How many cells to divide: no more than the work that is left allows, at what cells took so far.
+  // How many cells to divide: no more than the work that is left allows, if their halves take twice what cells took so far.
   std::size_t batch() const {
-    const std::uint64_t of_both_halves = 2 * (budget_.spent() / std::max<std::uint64_t>(result_.boxes, 1) + kCellWork);
-    return std::clamp<std::size_t>(budget_.left() / of_both_halves, 1, kBatch);
+    const std::uint64_t of_cell = budget_.spent() / std::max<std::uint64_t>(result_.boxes, 1) + kCellWork;
+    return std::clamp<std::size_t>(budget_.left() / (4 * of_cell), 1, kBatch);
   }
 
   void divide_largest() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "base/key_sort.hpp"
@@ -12,7 +13,10 @@ namespace satcheck {
 namespace {
 
 // Measured steps of a distance, and of a patch that is held against a plane.
-constexpr std::uint64_t kDistanceWork = 25, kSideWork = 5;
+constexpr std::uint64_t kDistanceWork = 25, kSideWork = 5, kFilterWork = 4;
+
+// So many triangles usually belong to kManyPatches.
+constexpr std::size_t kManyTriangles = 2 * kManyPatches;
 
 // The distance from a point to a triangle, in float64: a point is placed with a rounded normal (16 roundoffs of the
 // distance) or on an edge (8), on a side of an edge that 9 roundoffs decide, of a distance below 4 times the largest
@@ -75,16 +79,18 @@ Aabb TwoBodies::widened(const Aabb& box, double reach) const {
   return {box.min - wide, box.max + wide};
 }
 
-void TwoBodies::make_patches(const Aabb& box, double reach, double flatness, Budget& budget) {
+void TwoBodies::make_patches(const Aabb& box, double reach, double flatness) {
   for (int body = 0; body < 2; ++body) {
     const Surface& from = surface(body);
-    std::vector<std::uint32_t> triangles;
+    std::vector<bool> is_near(from.mesh.triangles.size(), false);
     visit_box(from.bvh, from.mesh, box.widened(reach), [&](std::uint32_t t) {
-      if (counts(body, t)) triangles.push_back(t);
+      is_near[t] = counts(body, t);
       return true;
-    }, &budget);
-    std::sort(triangles.begin(), triangles.end());
-    budget.spend(20 * kDistanceWork * triangles.size());
+    });
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t t = 0; t < is_near.size(); ++t) {
+      if (is_near[t]) triangles.push_back(t);
+    }
     patches_[static_cast<std::size_t>(body)] = convex_patches(from.mesh, triangles, flatness);
   }
 }
@@ -99,6 +105,17 @@ PatchList TwoBodies::patches_at(int body, const Aabb& box, Budget& budget, std::
   }, &budget);
   sort_once(list);
   return list;
+}
+
+PatchList TwoBodies::patches_near(int body, const Aabb& box, Budget& budget, const PatchList* known) const {
+  PatchList list;
+  if (known != nullptr && !may_be_part(*known)) {
+    budget.spend(kFilterWork * known->size());
+    std::copy_if(known->begin(), known->end(), std::back_inserter(list), [&](auto i) { return meet(this->box(body, i), box); });
+    return list;
+  }
+  if (!in_plane()) list = patches_at(body, box, budget, kManyTriangles);
+  return may_be_part(list) ? list : patches_at(body, box, budget);
 }
 
 double TwoBodies::value(const Column& column, Vec3 p) const {
@@ -134,7 +151,7 @@ double TwoBodies::farthest(int body, const Aabb& box, Vec3 normal, const PatchLi
   if (near.size() >= kManyPatches) return farthest_in_tree(body, box, normal, least, enough, budget);
   const auto compare = [&](std::uint32_t number) {
     const Patch& from = patch(body, number);
-    const Aabb& around = this->box(body, number);
+    const Aabb around = this->box(body, number);
     if (dot(normal, farthest_corner(around, normal)) <= least || !meet(around, box)) return;
     const Vec3* outline = patches(body).outlines.data() + from.first;
     least = larger(least, farthest_in({outline, from.count}, box, normal, enough) + from.slack);
@@ -179,7 +196,7 @@ std::optional<Column> TwoBodies::plane_column(int body, std::uint32_t number, co
   if (norm_squared(from.normal) == 0) return std::nullopt;
   for (const double sign : {1.0, -1.0}) {
     const Vec3 normal = from.normal * sign;
-    const double plane = dot(normal, from.origin) + from.slack;
+    const double plane = dot(normal, patches(body).origin(from)) + from.slack;
     double height = farthest(body, box, normal, near, plane, plane + tolerance, budget);
     if (height > plane + tolerance) continue;
     height += rounding_;

@@ -46,14 +46,20 @@ class TwoBodies {
   const ConvexPatches& patches(int body) const { return patches_[static_cast<std::size_t>(body)]; }
   // All that is no farther from the box than that; in the plane, in its directions.
   Aabb widened(const Aabb& box, double reach) const;
-  const Aabb& box(int body, std::uint32_t i) const { return patches(body).boxes[i]; }
+  Aabb box(int body, std::uint32_t i) const { return patches(body).box(patch(body, i)); }
   const Patch& patch(int body, std::uint32_t i) const { return patches(body).patches[i]; }
 
-  // Makes the patches of the triangles that are no farther than `reach` from the box. flatness: convex_patches.hpp.
-  void make_patches(const Aabb& box, double reach, double flatness, Budget& budget);
+  // Makes the patches of the triangles that are no farther than `reach` from the box. flatness: convex_patches.hpp. The time
+  // is linear and no part of a search, which is as narrow for large meshes.
+  void make_patches(const Aabb& box, double reach, double flatness);
 
   // Of the patches that were made, those with a triangle whose box meets this one: of the first `most` such triangles.
   PatchList patches_at(int body, const Aabb& box, Budget& budget, std::size_t most = kNoPatch) const;
+
+  // Those whose box meets this one; where they are many, any kManyPatches of them or more, because the tree is asked
+  // instead, but in a plane. known: of a box around this one; null: none.
+  PatchList patches_near(int body, const Aabb& box, Budget& budget, const PatchList* known) const;
+  bool may_be_part(const PatchList& near) const { return near.size() >= kManyPatches && !in_plane(); }
 
   // With less() of the body taken off.
   double value(const Column& column, Vec3 p) const;

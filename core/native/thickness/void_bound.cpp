@@ -11,7 +11,7 @@ constexpr std::uint64_t kPlaneWork = 20;
 
 // normal . p > height is beyond it; the patch is, and `hollow` is not.
 std::optional<HalfSpace> wall_of(const ConvexPatches& patches, const Patch& patch, Vec3 hollow, double rounding) {
-  const double side = dot(patch.normal, hollow - patch.origin);
+  const double side = dot(patch.normal, hollow - patches.origin(patch));
   const Vec3 normal = patch.normal * (side > 0 ? -1.0 : 1.0);
   double height = INFINITY;
   for (std::uint32_t i = 0; i < patch.count; ++i) height = smaller(height, dot(normal, patches.outlines[patch.first + i]));
@@ -51,7 +51,7 @@ double bound_around(const CellVoid& of, const TwoBodies& bodies, double enough, 
   // A point that is this far beyond the cell's farthest one lies in the box.
   const Aabb around = bodies.widened(of.cell.box(), enough + less + 2 * rounding);
   PatchList listed;
-  if (of.near == nullptr) listed = bodies.patches_at(other, around, budget);
+  if (of.near == nullptr) listed = bodies.patches_near(other, around, budget, nullptr);
   const PatchList& near = of.near == nullptr ? listed : *of.near;
   BoxCorners corners(bodies, other, around, budget);
   double bound = -less;

@@ -1,8 +1,9 @@
-// Against the hulls themselves: the same answer, and a lower bound that holds and is not far off.
+// Against the hulls themselves: the same answer, a lower bound of a distance that holds and is not far off, and the depth.
 #include "convex/hulls_apart.hpp"
 
 #include <vector>
 
+#include "base/rounding.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"
 
@@ -32,12 +33,32 @@ void compare(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   CHECK(found->lower >= 0.99 * truth.lower);
 }
 
+void compare_depth(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  const double largest = std::fmax(largest_of(a), largest_of(b));
+  const auto found = depth_of_hulls(a, b, largest);
+  const PairResult truth = check_pair(make_hull(a), {}, make_hull(b), {}, Query::depth);
+  CHECK(found);
+  if (!found) return;
+  CHECK(found->outcome == truth.outcome && found->lower <= truth.upper && found->upper >= truth.lower);
+  CHECK(found->upper - found->lower <= kWidestInterval * largest);
+}
+
 void random_balls() {
   testing::Source source(5);
   const std::vector<Vec3> a = source.sphere_points(3000), b = source.sphere_points(2000);
   for (const double apart : {0.0, 1.5, 1.97, 2.03, 2.5, 9.0}) {
-    for (int k = 0; k < testing::rounds(10); ++k) compare(a, moved(b, source.on_sphere() * apart));
+    for (int k = 0; k < testing::rounds(10); ++k) {
+      const std::vector<Vec3> there = moved(b, source.on_sphere() * apart);
+      compare(a, there);
+      if (apart > 0) compare_depth(a, there);
+    }
   }
+}
+
+void depth_of_flat_sets() {
+  const std::vector<Vec3> square{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
+  compare_depth(square, moved(square, {0, 0, 1}));
+  CHECK(!depth_of_hulls(square, moved(square, {1, 0, 0}), 3));  // they touch
 }
 
 void flat_and_few_points() {
@@ -58,5 +79,6 @@ void a_gap_below_rounding_is_left_open() {
 UNIT(hulls_apart) {
   random_balls();
   flat_and_few_points();
+  depth_of_flat_sets();
   a_gap_below_rounding_is_left_open();
 }

@@ -80,6 +80,17 @@ void random_hulls() {
   }
 }
 
+// Every edge bends outward, and the middle is below all planes; but the surface winds about the axis twice.
+void a_star() {
+  Mesh star{{{0, 0, 4}, {0, 0, -4}, {4, 0, 0}, {1, 4, 0}, {-3, 2, 0}, {-3, -2, 0}, {1, -4, 0}}, {}};
+  for (std::uint32_t k = 0; k < 5; ++k) {
+    const std::uint32_t from = 2 + k, to = 2 + (k + 2) % 5;
+    star.triangles.push_back({0, from, to});
+    star.triangles.push_back({1, to, from});
+  }
+  CHECK(convexity_defect(star, 0) == INFINITY);
+}
+
 void no_solids() {
   Mesh open = box({0, 0, 0}, {1, 1, 1});
   open.triangles.pop_back();
@@ -93,5 +104,6 @@ UNIT(convexity) {
   unions_of_boxes();
   a_dent();
   random_hulls();
+  a_star();
   no_solids();
 }

@@ -23,7 +23,7 @@ UNIT(cell_cut) {
   const Surface a = make_surface(testing::box({0, 0, 0}, {1, 1, 1}), true), b = make_surface(testing::box({0, 0, 0}, {1, 2, 1}), true);
   TwoBodies bodies(a, b, {});
   Budget budget;
-  bodies.make_patches({{0, 0, 0}, {1, 2, 1}}, 2, 1e-9, budget);
+  bodies.make_patches({{0, 0, 0}, {1, 2, 1}}, 2, 1e-9);
   const Mat3 axes{};
   // The distance is exact in the lower half, y < 1, and bends where the face ends.
   const Cell cell = make_cell(axes, {0.25, 0, 0.25}, {0.5, 2, 0.75}, -1, 2);
