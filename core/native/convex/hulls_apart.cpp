@@ -77,9 +77,10 @@ std::optional<PairResult> depth_of_hulls(const std::vector<Vec3>& a, const std::
     const bool grows_a = dot(end_a, along) > dot(farthest(some_a, along), along);
     const bool grows_b = dot(end_b, along) < dot(farthest(some_b, -along), along);
     if (!grows_a && !grows_b) {
-      if (depth.outcome == Outcome::touching) return std::nullopt;
       depth.lower = std::min(depth.lower, least_distance(end_a, end_b, along, largest));
-      return depth;
+      // A point that rounding hides may be farther.
+      const bool is_proven = depth.outcome == Outcome::penetrating || depth.lower > 0;
+      return is_proven ? std::optional(depth) : std::nullopt;
     }
     if (grows_a) some_a.push_back(end_a);
     if (grows_b) some_b.push_back(end_b);

@@ -14,7 +14,7 @@ namespace satcheck {
 std::optional<PairResult> hulls_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest);
 
 // What check_pair() with Query::depth says of the hulls, with bounds as close. Empty if it takes too many rounds, or if the
-// hulls touch.
+// hulls may touch.
 std::optional<PairResult> depth_of_hulls(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest);
 
 }  // namespace satcheck
