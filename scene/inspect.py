@@ -248,7 +248,9 @@ def _warnings(health: MeshHealth, inspection: Inspection) -> list[tuple[str, str
     if health.cracks:
         cracks = _count(health.cracks, "crack")
         warnings.append(("cracks", f"{cracks} no wider than the precision of the file: closed"))
-    if health.holes and not health.doubtful:
+    if doubtful and not health.doubtful:
+        warnings.append(("not-closed", f"open mesh ({_count(health.boundary_edges, 'boundary edge')})"))
+    elif health.holes and not doubtful:
         holes, size = _count(health.holes, "hole"), f"{health.largest_hole:.3g}"
         largest = "" if health.holes == 1 else "largest "
         warnings.append(("not-closed", f"open mesh ({holes}, {largest}{size} across)"))

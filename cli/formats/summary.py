@@ -235,12 +235,12 @@ def _open(report: Report) -> Iterator[str]:
         yield "--units states the unit of files that have none"
     elif report.settings.accuracy != "exact":
         yield "--accuracy exact decides it"
-    elif _depends_on_holes(report, undecided):
-        yield "close the holes, or give --allow-open if they are meant to be open"
     elif undecided and any(issue.code == "doubtful-cavity" for issue in report.issues):
         yield (
             "turn the faces: outward on solids, inward on cavities; walls of a room need both sides"
         )
+    elif _depends_on_holes(report, undecided):
+        yield "close the holes, or give --allow-open if they are meant to be open"
     elif any(map(_has_no_thickness, asked)):
         yield "--max-depth, or max_depth of a rule, limits what has no thickness"
     elif any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):

@@ -187,7 +187,7 @@ the winding. ValueError when the matrix is not affine or singular, OverflowError
            [](const Mesh& mesh) {
              Topology topology = measure_topology(mesh);
              Budget budget = Budget::that_stops(kNoEnd, interrupting());
-             topology.solid = topology.solid && !find_doubt(weld(mesh), &budget);
+             topology.solid = topology.solid && facing_of(weld(mesh), &budget).doubtful.empty();
              return topology;
            },
            ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kFirstPoints = 64;  // of each set, evenly along its order
 constexpr int kRounds = 32;
-constexpr int kDepthRounds = 256;
+constexpr int kDepthRounds = 64;
 // The lower bound has to reach this share of the distance. No caller needs more.
 constexpr double kGoodShare = 0.99;
 

@@ -133,18 +133,12 @@ namespace {
 // Measured steps for each point of a rim.
 constexpr std::uint64_t kHullWork = 100;
 
-Mesh with_sheets(const Surface& open) {
-  Mesh mesh = open.mesh;
-  double_triangles(mesh, open.sheets);
-  return mesh;
-}
-
 Closing fill_holes(const Surface& open, Budget* budget) {
   Closing closing;
-  Mesh closed = with_sheets(open);
-  const Doubt doubt = find_doubt(closed, budget).value_or(Doubt{closed, {}});
-  closed = doubt.outward;
-  closing.holes = find_holes(closed, doubt.shells);
+  Mesh closed = open.mesh;
+  double_triangles(closed, open.sheets);
+  turn(closed, open.facing.inward);
+  closing.holes = find_holes(closed, open.facing.doubtful);
   for (const Hole& hole : closing.holes) {
     for (const BoundaryLoop& loop : hole.loops) {
       const std::vector<Triangle> triangles = fan(loop);
@@ -158,19 +152,18 @@ Closing fill_holes(const Surface& open, Budget* budget) {
 
 // A triangle and its reverse cancel in winding numbers, so the open parts become sheets. Closed patches within an
 // edge-connected part stay solid, unless they were turned beside a doubtful shell.
-Closing double_open_parts(const Surface& open, Budget* budget) {
+Closing double_open_parts(const Surface& open) {
   const Mesh& welded = open.mesh;
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   const Labels parts = label_components(welded, edges), patches = label_manifold_patches(welded, edges);
   const std::vector<bool> open_part = find_open_sets(parts, edges), open_patch = find_open_sets(patches, edges);
-  const auto doubt = find_doubt(with_sheets(open), budget);
   std::vector<bool> is_sheet(welded.triangles.size());
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
-    const bool is_open = open_part[parts.of_triangle[t]] && open_patch[patches.of_triangle[t]];
-    is_sheet[t] = is_open || (doubt && doubt->outward.triangles[t] != welded.triangles[t]);
+    is_sheet[t] = open_part[parts.of_triangle[t]] && open_patch[patches.of_triangle[t]];
   }
-  for (const auto& shell : doubt ? doubt->shells : Doubt{}.shells) {
-    for (const std::uint32_t t : shell) is_sheet[t] = true;
+  for (const std::uint32_t t : open.facing.inward) is_sheet[t] = true;
+  for (const auto& part : open.facing.doubtful) {
+    for (const std::uint32_t t : part) is_sheet[t] = true;
   }
   std::vector<std::uint32_t> sheets;
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
@@ -196,7 +189,7 @@ std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes, 
 }
 
 Closing close_surface(const Surface& open, OpenParts parts, Budget* budget) {
-  return parts == OpenParts::filled ? fill_holes(open, budget) : double_open_parts(open, budget);
+  return parts == OpenParts::filled ? fill_holes(open, budget) : double_open_parts(open);
 }
 
 }  // namespace satcheck

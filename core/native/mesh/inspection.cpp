@@ -152,7 +152,7 @@ std::vector<Hole> holes_of(const Inspection& inspection, const Poll& poll) {
   double_triangles(mesh, flat_parts(inspection.mesh));
   if (!inspection.doubtful) return find_holes(mesh);
   Budget budget = Budget::that_stops(kMostSteps, poll);
-  return find_holes(mesh, find_doubt(inspection.mesh, &budget).value_or(Doubt{}).shells);
+  return find_holes(mesh, facing_of(inspection.mesh, &budget).doubtful);
 }
 
 Inspection sealed(Inspection given, double width, Budget& budget) {

@@ -2,7 +2,9 @@
 // directions; that relation is carried through every patch of edges with exactly two triangles.
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -28,13 +30,14 @@ struct Patch {
   bool solid = false;  // it is, or its component as a whole
   bool open = false;   // only fills close it, or its component
   bool turned = false;
-  double volume = 0;   // signed; 0: no shell
+  double volume = 0;   // signed; of what is solid with it
+  std::uint32_t group = 0;  // the same of what is solid with it
   Aabb box;
   Aabb solid_box;  // of all that is solid with it
 };
 
 void flip(Mesh& mesh, Patch& patch) {
-  for (const std::uint32_t t : patch.triangles) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  turn(mesh, patch.triangles);
   patch.volume = -patch.volume;
   patch.turned = !patch.turned;
 }
@@ -114,7 +117,9 @@ struct Volumes {
 // own: the number of triangles that are no fills.
 Volumes find_solids(const Mesh& mesh, std::size_t own, const EdgeTable& edges, std::vector<Patch>& patches) {
   Volumes volumes;
+  std::uint32_t number = 0;
   for (Patch& patch : patches) {
+    patch.group = number++;
     patch.solid = patch.shell;
     patch.solid_box = patch.box;
     patch.open = patch.triangles.back() >= own;
@@ -127,23 +132,28 @@ Volumes find_solids(const Mesh& mesh, std::size_t own, const EdgeTable& edges, s
   const auto component_of = [&](const Patch& patch) { return components.of_triangle[patch.triangles[0]]; };
   std::vector<Aabb> boxes(components.count);
   std::vector<bool> open(components.count, false);
+  std::vector<std::vector<Triangle>> triangles(components.count);  // of solids that are no shells
   for (const Patch& patch : patches) {
     boxes[component_of(patch)].include(patch.box);
     if (patch.open) open[component_of(patch)] = true;
-  }
-  std::vector<Triangle> all, closed;  // of solids that are no shells
-  for (Patch& patch : patches) {
     if (patch.shell || unbalanced[component_of(patch)]) continue;
-    patch.solid = true;
-    patch.solid_box = boxes[component_of(patch)];
-    patch.open = open[component_of(patch)];
-    for (const std::uint32_t t : patch.triangles) {
-      all.push_back(mesh.triangles[t]);
-      if (!patch.open) closed.push_back(mesh.triangles[t]);
-    }
+    for (const std::uint32_t t : patch.triangles) triangles[component_of(patch)].push_back(mesh.triangles[t]);
   }
-  volumes.all += signed_volume(mesh.vertices, all);
-  volumes.closed += signed_volume(mesh.vertices, closed);
+  std::vector<double> of_component;
+  for (std::uint32_t c = 0; c < components.count; ++c) {
+    of_component.push_back(signed_volume(mesh.vertices, triangles[c]));
+    volumes.all += of_component[c];
+    if (!open[c]) volumes.closed += of_component[c];
+  }
+  for (Patch& patch : patches) {
+    const std::uint32_t c = component_of(patch);
+    if (patch.shell || unbalanced[c]) continue;
+    patch.solid = true;
+    patch.solid_box = boxes[c];
+    patch.open = open[c];
+    patch.volume = of_component[c];
+    patch.group = static_cast<std::uint32_t>(patches.size()) + c;
+  }
   return volumes;
 }
 
@@ -175,8 +185,15 @@ class Nesting {
            !crosses_another(patch);
   }
 
-  // Whether the inside of an outward shell is that of others that face inward, so that winding numbers cancel.
-  bool is_cancelled(std::uint32_t patch) { return winding_around(patch, solids_) == -1 && !crosses_another(patch); }
+  // Whether the patch faces inward, and lies in no other solid.
+  bool is_inward(std::uint32_t patch) {
+    return patches_[patch].solid && patches_[patch].volume < 0 && winding_around(patch, solids_).value_or(0) == 0;
+  }
+
+  // Whether the patch faces outward within others that face inward, so that winding numbers cancel. inward: ascending.
+  bool is_cancelled(std::uint32_t patch, const std::vector<std::uint32_t>& inward) {
+    return patches_[patch].solid && patches_[patch].volume > 0 && winding_around(patch, inward).value_or(-1) < 0;
+  }
 
   // Whether another patch ends near the boundary of this one, by the boxes of triangles. Both may then be pieces of one
   // surface.
@@ -204,7 +221,7 @@ class Nesting {
   std::optional<int> winding_around(std::uint32_t patch, const std::vector<std::uint32_t>& solids) {
     const auto may_contain = [&](std::uint32_t other) {
       spend(budget_, kBoxWork);
-      return other != patch && patches_[other].solid_box.contains(patches_[patch].box);
+      return patches_[other].group != patches_[patch].group && patches_[other].solid_box.contains(patches_[patch].box);
     };
     if (std::none_of(solids.begin(), solids.end(), may_contain)) return 0;
     const auto counts = [&](std::uint32_t t) {
@@ -304,11 +321,11 @@ Mesh with_fills(const Mesh& welded, const EdgeTable& edges) {
 // If a shell that faces inward crosses others, winding numbers cancel, and the volume inside both would not be material. An
 // open one is turned only in this case, and only if it is not a piece of a larger surface.
 bool has_to_turn(std::uint32_t p, const Patch& patch, Nesting& nesting) {
-  if (!(patch.volume < 0)) return false;
+  if (!patch.shell || !(patch.volume < 0)) return false;
   return patch.open ? nesting.crosses_another(p) && !nesting.ends_near_another(p) : !nesting.is_nested(p);
 }
 
-// Turns shells that face inward, with all that lies within them. Returns those that are doubtful.
+// Turns shells that face inward, with all that lies within them. Returns the doubtful patches.
 std::vector<std::uint32_t> turn_shells(Mesh& mesh, std::vector<Patch>& patches, Nesting& nesting) {
   std::vector<std::uint32_t> turned, closed;
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
@@ -321,59 +338,66 @@ std::vector<std::uint32_t> turn_shells(Mesh& mesh, std::vector<Patch>& patches, 
     if (stays && nesting.turns_along(p, closed)) turned.push_back(p);
   }
   for (const std::uint32_t p : turned) flip(mesh, patches[p]);
-  const bool is_any_inward =
-      std::any_of(patches.begin(), patches.end(), [](const Patch& patch) { return patch.open && patch.volume < 0; });
-  std::vector<std::uint32_t> doubtful;
+  std::vector<std::uint32_t> inward, doubtful;
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
-    // It has become the wall of a cavity because what lies around it was turned, or it lies in an open part like that.
-    const bool is_wall = patches[p].turned && patches[p].volume < 0;
-    if (is_wall || (is_any_inward && patches[p].volume > 0 && nesting.is_cancelled(p))) doubtful.push_back(p);
+    if (nesting.is_inward(p)) inward.push_back(p);
+  }
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    // It has become the wall of a cavity because what lies around it was turned.
+    const bool is_wall = patches[p].solid && patches[p].turned && patches[p].volume < 0;
+    if ((is_wall && !std::binary_search(inward.begin(), inward.end(), p)) || nesting.is_cancelled(p, inward)) doubtful.push_back(p);
   }
   return doubtful;
 }
 
-// Turns a mesh with one winding for each component outward.
-Doubt turned_outward(const Mesh& mesh, const EdgeTable& own_edges, Budget* budget) {
-  Doubt result{with_fills(mesh, own_edges), {}};
-  Mesh& filled = result.outward;
+Facing facing_in(const Mesh& mesh, const EdgeTable& own_edges, Budget* budget) {
+  Mesh filled = with_fills(mesh, own_edges);
+  const std::size_t own = mesh.triangles.size();
   std::optional<EdgeTable> of_filled;
-  const bool is_closed = filled.triangles.size() == mesh.triangles.size();
-  const EdgeTable& edges = is_closed ? own_edges : of_filled.emplace(filled.vertices.size(), filled.triangles);
+  const EdgeTable& edges =
+      filled.triangles.size() == own ? own_edges : of_filled.emplace(filled.vertices.size(), filled.triangles);
   const Labels labels = label_manifold_patches(filled, edges);
   std::vector<Patch> patches = make_patches(labels);
   find_shells(filled, edges, labels, patches);
-  const Volumes volumes = find_solids(filled, mesh.triangles.size(), edges, patches);
-  const bool is_inside_out = volumes.all < 0 && volumes.closed < 0;
-  if (is_inside_out) {
+  const Volumes volumes = find_solids(filled, own, edges, patches);
+  if (volumes.all < 0 && volumes.closed < 0) {
     for (Patch& patch : patches) flip(filled, patch);
+  } else if (std::none_of(patches.begin(), patches.end(), [](const Patch& patch) { return patch.volume < 0; })) {
+    return {};
   }
-  if (is_inside_out || std::any_of(patches.begin(), patches.end(), [](const Patch& patch) { return patch.volume < 0; })) {
-    Nesting nesting(filled, mesh, own_edges, labels, patches, budget);
-    for (const std::uint32_t p : turn_shells(filled, patches, nesting)) {
-      std::vector<std::uint32_t>& shell = result.shells.emplace_back(patches[p].triangles);
-      shell.erase(std::lower_bound(shell.begin(), shell.end(), mesh.triangles.size()), shell.end());
-    }
+  Nesting nesting(filled, mesh, own_edges, labels, patches, budget);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> doubtful;  // by group
+  const auto add_own = [&](std::vector<std::uint32_t>& to, const Patch& patch) {
+    std::copy_if(patch.triangles.begin(), patch.triangles.end(), std::back_inserter(to), [&](auto t) { return t < own; });
+  };
+  for (const std::uint32_t p : turn_shells(filled, patches, nesting)) add_own(doubtful[patches[p].group], patches[p]);
+  Facing facing;
+  for (auto& [group, triangles] : doubtful) facing.doubtful.push_back(std::move(triangles));
+  for (const Patch& patch : patches) {
+    if (patch.turned) add_own(facing.inward, patch);
   }
-  filled.triangles.resize(mesh.triangles.size());
-  return result;
+  return facing;
 }
 
 }  // namespace
+
+void turn(Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  for (const std::uint32_t t : triangles) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+}
 
 Mesh orient(const Mesh& mesh, Budget* budget, bool* doubtful) {
   Mesh result = weld(mesh);
   std::optional<EdgeTable> edges(std::in_place, result.vertices.size(), result.triangles);
   drop_surplus(result, edges);
   if (repair_patches(result, *edges)) edges.emplace(result.vertices.size(), result.triangles);
-  Doubt turned = turned_outward(result, *edges, budget);
-  if (turned.shells.empty()) return std::move(turned.outward);
-  if (doubtful != nullptr) *doubtful = true;
+  const Facing facing = facing_in(result, *edges, budget);
+  if (facing.doubtful.empty()) turn(result, facing.inward);
+  if (doubtful != nullptr) *doubtful = !facing.doubtful.empty();
   return result;
 }
 
-std::optional<Doubt> find_doubt(const Mesh& welded, Budget* budget) {
-  Doubt turned = turned_outward(welded, EdgeTable(welded.vertices.size(), welded.triangles), budget);
-  return turned.shells.empty() ? std::nullopt : std::optional(std::move(turned));
+Facing facing_of(const Mesh& welded, Budget* budget) {
+  return facing_in(welded, EdgeTable(welded.vertices.size(), welded.triangles), budget);
 }
 
 std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const Poll& poll) {
@@ -388,7 +412,7 @@ std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const P
   Labels labels = label_components(sealed, edges);
   // What is a cavity, or may be one, shows where the mesh faces outward. The parts themselves stay as they are.
   Mesh outward = orient(sealed, &budget);
-  if (const auto doubt = find_doubt(outward, &budget)) outward = doubt->outward;
+  turn(outward, facing_of(outward, &budget).inward);
   if (outward.triangles.size() != sealed.triangles.size()) outward = sealed;  // without copies
   const EdgeTable outward_edges(outward.vertices.size(), outward.triangles);
   const std::vector<std::uint32_t> solids = solids_of(outward, outward_edges, labels, &budget);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/budget.hpp"
@@ -14,17 +13,20 @@ namespace satcheck {
 // triangle are dropped if the surface is closed only without them. Components with mixed winding are repaired if they
 // are orientable edge-manifolds. A component with consistent winding keeps it, so cavities stay cavities. Exceptions:
 // the whole mesh is inside out, or the component is inside out and within no other one, or it is within such a one.
-// Nothing is turned if that leaves a doubt; `doubtful` then becomes true.
+// Nothing is turned if that leaves parts doubtful; `doubtful` then becomes true.
 Mesh orient(const Mesh& mesh, Budget* budget = nullptr, bool* doubtful = nullptr);
 
-// Shells that face outward within one that faces inward. They are solid if that one is a room around them, and walls of
-// cavities if it is a solid that is inside out.
-struct Doubt {
-  Mesh outward;                                    // with cavities
-  std::vector<std::vector<std::uint32_t>> shells;  // the triangles of each
+// How the parts of a mesh face whose components have one winding each. inward: the triangles to turn so that it faces
+// outward. doubtful: those of each part that faces outward within one that faces inward. It is solid if that one is a room
+// around it, and the wall of a cavity if that one is a solid that is inside out.
+struct Facing {
+  std::vector<std::uint32_t> inward;
+  std::vector<std::vector<std::uint32_t>> doubtful;
 };
 
-// Nothing: there are no such shells. A welded mesh from orient() keeps its doubt.
-std::optional<Doubt> find_doubt(const Mesh& welded, Budget* budget = nullptr);
+// A mesh from orient() keeps its doubtful parts.
+Facing facing_of(const Mesh& welded, Budget* budget = nullptr);
+
+void turn(Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
 }  // namespace satcheck

@@ -12,7 +12,6 @@
 #include "base/patches.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/boundary.hpp"
-#include "mesh/orient.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/winding.hpp"
 
@@ -83,8 +82,12 @@ Surface make_surface(const Mesh& mesh, bool solid, OpenParts open) {
   parallel_for(std::size(tasks), threads, [&](std::size_t i) { tasks[i](); });
   if (solid && !surface.solid) throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
   surface.open_parts = open;
-  if (!solid && surface.solid) surface.solid = !find_doubt(surface.mesh);
+  if (solid) return surface;
   if (!surface.solid) surface.sheets = open == OpenParts::sheets ? open_parts(surface.mesh) : flat_parts(surface.mesh);
+  Mesh with_sheets = surface.mesh;
+  double_triangles(with_sheets, surface.sheets);
+  surface.facing = facing_of(with_sheets);
+  surface.solid = surface.solid && surface.facing.inward.empty() && surface.facing.doubtful.empty();
   return surface;
 }
 
@@ -108,6 +111,7 @@ Surface refitted_surface(const Surface& like, Mesh mesh) {
   surface.solid = like.solid;
   surface.open_parts = like.open_parts;
   surface.sheets = like.sheets;
+  surface.facing = like.facing;
   surface.refitted = true;
   return surface;
 }

@@ -9,6 +9,7 @@
 
 #include "base/mesh.hpp"
 #include "mesh/bvh.hpp"
+#include "mesh/orient.hpp"
 
 namespace satcheck {
 
@@ -41,12 +42,13 @@ struct Surface {
   const Mesh& mesh;
   Bvh bvh;
   std::vector<std::uint32_t> parts;  // a triangle of each part that is connected through common vertices
-  // Closed: every edge is run as often in one direction as in the other, so every point has a winding number, and no shell
-  // is doubtful (mesh/orient.hpp).
+  // Closed: every edge is run as often in one direction as in the other, so every point has a winding number. No part faces
+  // inward or is doubtful.
   bool solid = false;
   // Triangles of open parts that lie in one plane or are intended to be open. They stay sheets even if the rounding of
   // a placement bends them.
   std::vector<std::uint32_t> sheets;
+  Facing facing;  // of a surface that is no solid; the rounding of a placement does not change it
   bool refitted = false;  // the tree has the form of another surface's
   OpenParts open_parts = OpenParts::filled;
   std::shared_ptr<LazyClosings> closings = std::make_shared<LazyClosings>();

@@ -23,9 +23,9 @@ void caves_belong_to_their_solids() {
     several += parts.size() > 1;
     std::vector<Surface> solids;
     for (const Mesh& part : parts) {
-      const Mesh oriented = orient(part);
-      const auto doubt = find_doubt(oriented);
-      solids.push_back(make_surface(doubt ? doubt->outward : oriented, true));
+      Mesh oriented = orient(part);
+      turn(oriented, facing_of(oriented).inward);
+      solids.push_back(make_surface(oriented, true));
     }
     for (int x = 0; x < 5; ++x)
       for (int y = 0; y < 5; ++y)

@@ -77,8 +77,9 @@ void stacks() {
     Mesh all;
     for (const Mesh& m : stack.boxes) append(all, m);
     const Mesh oriented = orient(all);
-    const std::optional<Doubt> doubt = find_doubt(oriented);
-    const Mesh result = doubt ? doubt->outward : oriented;
+    const Facing found = facing_of(oriented);
+    Mesh result = oriented;
+    turn(result, found.inward);
     const Topology topology = measure_topology(result);
     CHECK(topology.solid && topology.oriented && topology.triangles == all.triangles.size());
     CHECK(topology.volume > 0);
@@ -98,8 +99,8 @@ void stacks() {
       if (stack.wound[k] != Wound::inward && !outward) ++doubtful;
       around += outward ? 1 : -1;
     }
-    CHECK((doubt ? doubt->shells.size() : 0) == doubtful);
-    CHECK(make_surface(oriented, false).solid == !doubt);
+    CHECK(found.doubtful.size() == doubtful);
+    CHECK(make_surface(oriented, false).solid == found.doubtful.empty());
     // Again, nothing changes.
     const Mesh again = orient(result);
     CHECK(again.triangles == result.triangles && again.vertices == result.vertices);
@@ -115,9 +116,9 @@ void caves() {
     const Cells cells = random_cells(generator, 5, 0.4 + 0.1 * (round % 5));
     const Mesh outward = boundary_of(cells);
     if (outward.triangles.empty()) continue;
-    const Mesh oriented = orient(round % 2 == 0 ? outward : reversed(outward));
-    const std::optional<Doubt> doubt = find_doubt(oriented);
-    const Surface solid = make_surface(doubt ? doubt->outward : oriented, true);
+    Mesh oriented = orient(round % 2 == 0 ? outward : reversed(outward));
+    turn(oriented, facing_of(oriented).inward);
+    const Surface solid = make_surface(oriented, true);
     for (int x = 0; x < 5; ++x)
       for (int y = 0; y < 5; ++y)
         for (int z = 0; z < 5; ++z) CHECK(winding_number(solid, {x + 0.5, y + 0.5, z + 0.5}) == (cells(x, y, z) ? 1 : 0));
