@@ -20,6 +20,7 @@ Polygon hull_2d(Polygon points) {
   std::sort(points.begin(), points.end(), [](Vec2 p, Vec2 q) { return p.x < q.x || (p.x == q.x && p.y < q.y); });
   if (points.size() < 3) return points;
   Polygon hull;
+  hull.reserve(points.size() + 1);
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t start = hull.size();
     for (Vec2 p : points) {
@@ -58,6 +59,7 @@ Polygon clip(Polygon subject, const Polygon& window) {
     const Vec2 from = window[i], along = window[(i + 1) % window.size()] - from;
     Polygon kept;
     const std::size_t count = subject.size();
+    kept.reserve(count + 1);
     for (std::size_t k = 0; k < count; ++k) {
       const Vec2 p = subject[k], q = subject[(k + 1) % count];
       const double dp = cross(along, p - from), dq = cross(along, q - from);

@@ -248,7 +248,8 @@ WorldHull::WorldHull(const Shape& shape, const Pose& pose) {
   if (is_in_place(shape, pose)) {
     in_place_ = &with_faces(shape);
   } else {
-    moved_ = make_hull(world_points(shape, pose));
+    moved_.emplace().polytope = convex_hull(world_points(shape, pose));
+    moved_->face_normals = VertexLanes(moved_->polytope.face_normal);
   }
 }
 

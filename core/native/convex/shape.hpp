@@ -112,7 +112,7 @@ class WorldHull {
   WorldHull(const WorldHull&) = delete;
   WorldHull& operator=(const WorldHull&) = delete;
 
-  // A hull in place, with faces.
+  // A hull in place, with faces. Of a moved one, only the polytope and its face normals are set.
   const Shape& shape() const { return moved_ ? *moved_ : *in_place_; }
   // In the world, not rounded.
   Vec3 vertex(std::size_t i) const { return shape().polytope.vertices[i] + shape().origin; }
