@@ -285,7 +285,9 @@ failed, and climb() raises for this pair.)");
         },
         "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto", "steps"_a = kNoEnd,
         "One pair of Climbing, from the rung `first` on.");
-  m.def("hull_depth", [](PlacedGeometry& a, PlacedGeometry& b, bool alone) { return hull_depth(a, b, alone); },
+  m.def("hull_depth", [](PlacedGeometry& a, PlacedGeometry& b, bool alone) {
+          return hull_depth(a, b, alone, Budget::that_stops(kNoEnd, interrupting()));
+        },
         "a"_a, "b"_a, "alone"_a = false, ReleaseGil(),
         "The depth of the hulls of two bodies. alone: no other pair needs them, and large hulls are not made.");
   m.def("crossing_depth",

@@ -68,9 +68,11 @@ std::optional<PairResult> hulls_apart(const std::vector<Vec3>& a, const std::vec
   return std::nullopt;
 }
 
-std::optional<PairResult> depth_of_hulls(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest) {
+std::optional<PairResult> depth_of_hulls(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest,
+                                         const Budget* budget) {
   std::vector<Vec3> some_a = some_of(a), some_b = some_of(b);
   for (int round = 0; round < kDepthRounds; ++round) {
+    if (budget != nullptr) budget->tell_again(0);
     PairResult depth = check_pair(make_hull(some_a), {}, make_hull(some_b), {}, Query::depth);
     if (depth.outcome == Outcome::undecided || !depth.has_distance) return std::nullopt;
     const Vec3 along = depth.normal, end_a = farthest(a, along), end_b = farthest(b, -along);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "convex/narrow_phase.hpp"
 
 namespace satcheck {
@@ -14,7 +15,8 @@ namespace satcheck {
 std::optional<PairResult> hulls_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest);
 
 // What check_pair() with Query::depth says of the hulls, with bounds as close. Empty if it takes too many rounds, or if the
-// hulls may touch.
-std::optional<PairResult> depth_of_hulls(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest);
+// hulls may touch. budget: is polled, and pays nothing.
+std::optional<PairResult> depth_of_hulls(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest,
+                                         const Budget* budget = nullptr);
 
 }  // namespace satcheck

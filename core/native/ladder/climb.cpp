@@ -163,7 +163,7 @@ class Climber {
   }
 
   bool convex_bodies_settle() {
-    climb_.hulls = hull_depth(*request_.a, *request_.b, request_.alone, request_.method);
+    climb_.hulls = hull_depth(*request_.a, *request_.b, request_.alone, budget_, request_.method);
     return climb_.hulls->outcome != Outcome::undecided;
   }
 
@@ -306,9 +306,9 @@ Verdict by_convex_hulls(const ClimbRequest& request, const Climb& climb, const P
 
 }  // namespace
 
-PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, MethodChoice method) {
+PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, const Budget& budget, MethodChoice method) {
   if (method == MethodChoice::automatic && spares_hulls(a, b, alone)) {
-    if (const auto depth = depth_of_hulls(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b))) return *depth;
+    if (const auto depth = depth_of_hulls(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b), &budget)) return *depth;
   }
   make_hull_shapes(a, b);
   return check_pair(*a.hull_shape(), {}, *b.hull_shape(), {}, Query::depth, method);

@@ -97,8 +97,9 @@ const PairResult* signed_distance(const Climb& climb);
 // The hole that leaves the relation open; null if there is none.
 const OpenHole* hole_in_the_way(const Climb& climb);
 
-// The depth of the hulls of two bodies. alone: as in ClimbRequest.
-PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, MethodChoice method = MethodChoice::automatic);
+// The depth of the hulls of two bodies. alone: as in ClimbRequest. budget: is polled, and pays nothing.
+PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, const Budget& budget,
+                      MethodChoice method = MethodChoice::automatic);
 
 // A proven lower bound of the distance of hulls that are apart.
 double gap_of_hulls(const Climb& climb);
