@@ -249,7 +249,8 @@ def _warnings(health: MeshHealth, inspection: Inspection) -> list[tuple[str, str
         cracks = _count(health.cracks, "crack")
         warnings.append(("cracks", f"{cracks} no wider than the precision of the file: closed"))
     if doubtful and not health.doubtful:
-        warnings.append(("not-closed", f"open mesh ({_count(health.boundary_edges, 'boundary edge')})"))
+        edges = _count(health.boundary_edges, "boundary edge")
+        warnings.append(("not-closed", f"open mesh ({edges})"))
     elif health.holes and not doubtful:
         holes, size = _count(health.holes, "hole"), f"{health.largest_hole:.3g}"
         largest = "" if health.holes == 1 else "largest "
