@@ -24,6 +24,7 @@
 #include "mesh/hull_points.hpp"
 #include "mesh/inspection.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/facing.hpp"
 #include "mesh/orient.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/transform.hpp"

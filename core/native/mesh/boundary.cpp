@@ -14,7 +14,7 @@
 #include "convex/convex_hull.hpp"
 #include "mesh/chains.hpp"
 #include "mesh/mesh_checks.hpp"
-#include "mesh/orient.hpp"
+#include "mesh/facing.hpp"
 
 namespace satcheck {
 namespace {

@@ -27,7 +27,7 @@ std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& ed
 std::vector<Triangle> fan(const BoundaryLoop& loop);
 
 // Loops that share a vertex are one hole, because they can be split in several ways, and one fill may close them all. A
-// shell that may be solid or the wall of a cavity (mesh/orient.hpp) is a hole too: it has no loops.
+// shell that may be solid or the wall of a cavity (mesh/facing.hpp) is a hole too: it has no loops.
 struct Hole {
   std::vector<BoundaryLoop> loops;
   std::vector<std::uint32_t> shell;  // the vertices of such a shell
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> open_parts(const Mesh& welded);
 // Turns these triangles into sheets by adding them in the opposite winding.
 void double_triangles(Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
-// The largest first. Flat parts are holes too, unless they are doubled. doubtful: the triangles of shells (mesh/orient.hpp).
+// The largest first. Flat parts are holes too, unless they are doubled. doubtful: the triangles of shells (mesh/facing.hpp).
 std::vector<Hole> find_holes(const Mesh& welded, const std::vector<std::vector<std::uint32_t>>& doubtful = {});
 
 struct Closing {

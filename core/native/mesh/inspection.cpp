@@ -10,6 +10,7 @@
 #include "base/patches.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/cracks.hpp"
+#include "mesh/facing.hpp"
 #include "mesh/orient.hpp"
 
 namespace satcheck {

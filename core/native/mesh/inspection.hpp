@@ -14,7 +14,7 @@ namespace satcheck {
 struct Inspection {
   Mesh mesh;               // welded and sorted, then oriented if the caller wants that
   bool turned = false;     // orienting changed the mesh
-  bool doubtful = false;   // shells of it may be solid or cavities (mesh/orient.hpp)
+  bool doubtful = false;   // shells of it may be solid or cavities (mesh/facing.hpp)
   std::size_t cracks = 0;  // number of closed cracks (mesh/cracks.hpp)
   Topology topology;       // before the mesh was oriented and its cracks were closed
   Topology repaired;       // of `mesh`; not solid if it is doubtful

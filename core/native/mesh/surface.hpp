@@ -9,7 +9,7 @@
 
 #include "base/mesh.hpp"
 #include "mesh/bvh.hpp"
-#include "mesh/orient.hpp"
+#include "mesh/facing.hpp"
 
 namespace satcheck {
 

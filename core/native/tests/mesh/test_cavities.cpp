@@ -1,6 +1,7 @@
 // The parts of solids of random cells: each is a solid with its caves, and together they are the cells.
 #include "mesh/cavities.hpp"
 
+#include "mesh/facing.hpp"
 #include "mesh/orient.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/topology.hpp"

@@ -1,4 +1,5 @@
 // Repairs of winding, against boxes whose nesting is known by their corners.
+#include "mesh/facing.hpp"
 #include "mesh/orient.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Topology numbers and repairs of boxes that are put together and broken in known ways.
+#include "mesh/facing.hpp"
 #include "mesh/orient.hpp"
 #include "mesh/topology.hpp"
 
