@@ -114,6 +114,17 @@ def test_a_part_within_an_open_one_is_judged_like_one_within_a_closed_one(
         assert (finding.relation if finding else "separated") == relation_then
 
 
+def test_a_wall_of_a_cavity_that_is_open_does_not_make_the_cavity_solid(tmp_path):
+    """The wall of the cavity of a block, read as a sheet, would leave the block without a cavity.
+    In the cavity is a box that faces inward, with one in it that faces outward."""
+    points, faces = inverted(box((1, 1, 1), (10, 10, 10)))
+    wall = points, [face for face in faces if any(points[v][2] != 10 for v in face)]
+    boxes = unit_box(edge=11.0), wall, inverted(unit_box(2, 2, 2, 7.0)), unit_box(3, 3, 3, 5.0)
+    body = together(*boxes)
+    assert relation(tmp_path, body, unit_box(4, 4, 4)) == "indeterminate"
+    assert relation(tmp_path, body, unit_box(2.5, 4, 4, 0.25)) == "contains"
+
+
 def test_a_box_in_the_hole_is_indeterminate_and_the_hole_is_named(tmp_path):
     report = check(scene_of(tmp_path, shell=open_box(), part=unit_box(1, 1, 3.5)))
     finding = only(report)

@@ -119,7 +119,7 @@ bool crosses_boundaries(const ClosedPair& pair, ContactPair crossing, Budget* bu
 }
 
 // If surfaces cross, the bodies overlap for every fill. Else the closed surfaces decide, unless the answer depends on
-// the fill of a hole. The open surfaces, read as sheets, show overlaps that no fill removes.
+// the fill of a hole. No fill removes an overlap of the open surfaces as sheets that is one of the filled surfaces, too.
 MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
                               Budget* budget) {
   if (contacts.crossing && wanted == Wanted::overlap) return crossing_relation(a, b, *contacts.crossing);
@@ -132,6 +132,10 @@ MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceC
   if (holes.in_the_way) {
     const ClosedPair sheets(a, b, OpenParts::sheets, budget);
     result = relation_of_points(sheets.a(), sheets.b(), wanted, budget);
+    if (overlaps(result)) {
+      const MeshRelation fill = relation_of_points(filled.a(), filled.b(), wanted, budget);
+      if (!overlaps(fill)) result = fill;
+    }
     if (!overlaps(result)) result.hole = holes.in_the_way;
   } else {
     result = relation_of_points(filled.a(), filled.b(), wanted, budget);
