@@ -95,7 +95,7 @@ _ALL = (
     Code(
         "doubtful-cavity",
         "warning",
-        "Parts that face outward lie within one that faces inward: they may be cavities, or solid.",
+        "What faces outward in a part that faces inward may be solid or a cavity.",
     ),
     Code("double-sided", "warning", "Each face exists in both orientations: the mesh is a sheet."),
     Code("flat", "warning", "All triangles lie in one plane: the mesh has no volume."),

@@ -235,18 +235,24 @@ def _open(report: Report) -> Iterator[str]:
         yield "--units states the unit of files that have none"
     elif report.settings.accuracy != "exact":
         yield "--accuracy exact decides it"
-    elif undecided and any(issue.code == "doubtful-cavity" for issue in report.issues):
-        yield (
-            "turn the faces: outward on solids, inward on cavities; walls of a room need both sides"
-        )
-    elif _depends_on_holes(report, undecided):
-        yield "close the holes, or give --allow-open if they are meant to be open"
+    elif words := [*_about_insides(report, undecided)]:
+        yield from words
     elif any(map(_has_no_thickness, asked)):
         yield "--max-depth, or max_depth of a rule, limits what has no thickness"
     elif any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
         yield "a larger --budget may decide it"
     else:
         yield "--explain shows the steps"
+
+
+def _about_insides(report: Report, undecided: Sequence[Finding]) -> Iterator[str]:
+    """What decides whether a body lies in material."""
+    if undecided and any(issue.code == "doubtful-cavity" for issue in report.issues):
+        yield (
+            "turn faces outward on solids and inward on cavities; give the walls of a room a back"
+        )
+    if _depends_on_holes(report, undecided):
+        yield "close the holes, or give --allow-open if they are meant to be open"
 
 
 def _within_facets(report: Report) -> Iterator[str]:
