@@ -163,14 +163,10 @@ def _pieces_of(value: Any) -> Iterator[Any]:
 
 def _text(value: Any) -> str:
     try:
-        compact = msgspec_json.encode(value)
-        text = msgspec_json.format(compact, indent=INDENT)
+        text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT)
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
-        compact = text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False).encode()
-    text = _NEGATIVE_ZERO.sub(b"0.0", text)
-    if compact.isascii() and b"\x7f" not in compact and b"##" not in compact:
-        return text.decode()
-    return escaped(text.decode())
+        text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False).encode()
+    return escaped(_NEGATIVE_ZERO.sub(b"0.0", text).decode())
 
 
 def escaped(text: str) -> str:

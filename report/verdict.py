@@ -72,7 +72,7 @@ def summarise(report: Report) -> Summary:
     counts, findings, answers = report.summary.pairs, report.findings, report.answers
     fail_on = report.settings.fail_on
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
-    unlisted_open = counts.indeterminate - by_relation["indeterminate"]
+    unlisted_open = unlisted_indeterminate(counts, findings)
     by_relation["separated"] += _unlisted(counts, findings) - unlisted_open
     by_relation["indeterminate"] += unlisted_open
     undecided = Counter(finding.undecided for finding in findings)

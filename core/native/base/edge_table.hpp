@@ -31,6 +31,13 @@ class EdgeTable {
     for (const std::uint32_t h : half_edges(edge)) sum += ascends(h) ? 1 : -1;
     return sum;
   }
+  // Whether triangles run each edge equally often in both directions.
+  bool is_balanced() const {
+    for (std::size_t e = 0; e < size(); ++e) {
+      if (balance(e) != 0) return false;
+    }
+    return true;
+  }
 
  private:
   const std::vector<Triangle>& triangles_;

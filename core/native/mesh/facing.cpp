@@ -206,18 +206,10 @@ std::vector<Patch> make_patches(const Labels& labels) {
   return patches;
 }
 
-// Whether triangles run each edge equally often in both directions.
-bool is_balanced(const EdgeTable& edges) {
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (edges.balance(e) != 0) return false;
-  }
-  return true;
-}
-
 // The mesh with its flat open parts doubled, because they are sheets, and its holes filled. Its own triangles come first.
 Mesh with_fills(const Mesh& welded, const EdgeTable& edges) {
   Mesh filled = welded;
-  if (is_balanced(edges)) return filled;
+  if (edges.is_balanced()) return filled;
   double_triangles(filled, flat_parts(welded));
   for (const BoundaryLoop& loop : boundary_loops(filled, EdgeTable(filled.vertices.size(), filled.triangles))) {
     const std::vector<Triangle> fill = fan(loop);

@@ -20,15 +20,6 @@ namespace {
 
 constexpr std::size_t kFewTriangles = 8192;  // too few for a second thread
 
-// Whether triangles run every edge equally often in both directions.
-bool is_closed(const Mesh& welded) {
-  const EdgeTable edges(welded.vertices.size(), welded.triangles);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (edges.balance(e) != 0) return false;
-  }
-  return true;
-}
-
 std::vector<std::uint32_t> find_parts(const Mesh& welded) {
   DisjointSets sets(welded.vertices.size());
   for (const Triangle& t : welded.triangles) {
@@ -76,7 +67,7 @@ Surface make_surface(const Mesh& mesh, bool solid, OpenParts open) {
   Surface surface(std::make_shared<const Mesh>(weld(mesh)));
   // The tree first, which takes longest.
   const std::function<void()> tasks[] = {[&] { surface.bvh = build_bvh(surface.mesh); },
-                                         [&] { surface.solid = is_closed(surface.mesh); },
+                                         [&] { surface.solid = EdgeTable(surface.mesh.vertices.size(), surface.mesh.triangles).is_balanced(); },
                                          [&] { surface.parts = find_parts(surface.mesh); }};
   const unsigned threads = surface.mesh.triangles.size() < kFewTriangles ? 1 : 0;
   parallel_for(std::size(tasks), threads, [&](std::size_t i) { tasks[i](); });

@@ -16,8 +16,8 @@
 namespace satcheck {
 namespace {
 
-// Measured steps: of a distance, of a patch that is held against a cell, of a corner of the game, of its solution.
-constexpr std::uint64_t kDistanceWork = 25, kFilterWork = 4, kGameWork = 100;
+// Measured steps of a corner of the game, and of its solution.
+constexpr std::uint64_t kGameWork = 100;
 
 // Functions that are added before a cell is split; while all are planes, and the bound is exact, many more.
 constexpr std::size_t kMostColumns = 14, kMostPlanes = 200;

@@ -5,8 +5,6 @@
 namespace satcheck {
 namespace {
 
-// Measured steps of a distance.
-constexpr std::uint64_t kDistanceWork = 25;
 // Cells with more corners are split along the axes only.
 constexpr std::size_t kManyCorners = 28;
 // A void next to more patches is not split off.

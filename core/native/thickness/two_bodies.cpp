@@ -12,8 +12,8 @@
 namespace satcheck {
 namespace {
 
-// Measured steps of a distance, and of a patch that is held against a plane.
-constexpr std::uint64_t kDistanceWork = 25, kSideWork = 5, kFilterWork = 4;
+// Measured steps of a patch that is held against a plane.
+constexpr std::uint64_t kSideWork = 5;
 
 // So many triangles usually belong to kManyPatches.
 constexpr std::size_t kManyTriangles = 2 * kManyPatches;

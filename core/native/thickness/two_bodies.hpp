@@ -14,6 +14,9 @@ namespace satcheck {
 // From so many patches on, the tree of the surface has the ones in a place sooner than a list.
 inline constexpr std::size_t kManyPatches = 1024;
 
+// Measured steps: of a distance, and of a patch that is held against a box.
+inline constexpr std::uint64_t kDistanceWork = 25, kFilterWork = 4;
+
 using PatchList = std::vector<std::uint32_t>;
 using PatchLists = std::array<PatchList, 2>;  // of either body
 
