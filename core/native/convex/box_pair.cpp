@@ -133,6 +133,20 @@ SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m, const Po
   return found;
 }
 
+// The verdict of the axes, and the axis that separates.
+SATCHECK_INLINE PairResult by_axes(Outcome outcome, PairFeature named, int axes_tested) {
+  PairResult result;
+  result.outcome = outcome;
+  result.method = Method::sat;
+  result.feature = named.feature;
+  result.index_a = named.index_a;
+  result.index_b = named.index_b;
+  result.axes_tested = axes_tested;
+  return result;
+}
+
+constexpr PairFeature kNoFeature{Feature::none, Shape::kNoIndex, Shape::kNoIndex};
+
 SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const OrderedBoxes ordered = in_order(a, pose_a, b, pose_b);
   const double error_a = placement_error(*ordered.a, *ordered.pose_a), error_b = placement_error(*ordered.b, *ordered.pose_b);
@@ -140,31 +154,32 @@ SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, co
   BoxAxes axes;
   measure_faces(boxes, axes);
   const double noise = proof_noise(boxes.scale, error_a, error_b);
-  const Lanes some = all_lanes(noise), none = all_lanes(-noise), limit = all_lanes(noise * noise);
-  // Four bits for each triple of axes: axes along which the boxes are apart by more than noise, and axes along which
-  // they may be.
-  int apart = bits_of_three(axes.overlap[0] < none) | bits_of_three(axes.overlap[1] < none) << 4;
-  LaneMask open = (axes.overlap[0] < some) | (axes.overlap[1] < some);
-  const bool by_face = apart != 0;
-  if (!by_face) measure_edges(boxes, axes);
-  for (int i = 0; i < 3 && !by_face; ++i) {
-    // Compared with noise times the length, squared. For parallel edges both sides are 0, which excludes no axis.
-    const Lanes overlap = signed_square(axes.overlap[2 + i]), short_of = limit * axes.length_squared[i];
-    apart |= bits_of_three(overlap < -short_of) << (8 + 4 * i);
-    open = open | (overlap < short_of);
+  const Lanes some = all_lanes(noise), none = all_lanes(-noise);
+  // Four bits for each triple of axes: those along which the boxes are apart by more than noise.
+  const int faces = bits_of_three(axes.overlap[0] < none) | bits_of_three(axes.overlap[1] < none) << 4;
+  if (faces != 0) {
+    const int first = std::countr_zero(static_cast<unsigned>(faces)), k = first & 3;
+    return by_axes(Outcome::separated, feature_of(first >> 2, k, k, ordered.swapped), 6);
   }
-  const int first = std::countr_zero(static_cast<unsigned>(apart) | 1u << 20);
-  static constexpr int kinds[6] = {0, 1, 2, 2, 2, 3};
-  const int triple = first >> 2, k = first & 3, kind = kinds[triple];
-  const PairFeature feature = feature_of(kind, kind == 2 ? triple - 2 : k, k, ordered.swapped);
-  PairResult result;
-  result.outcome = apart != 0 ? Outcome::separated : bits_of_three(open) != 0 ? Outcome::undecided : Outcome::penetrating;
-  result.method = Method::sat;
-  result.feature = feature.feature;
-  result.index_a = feature.index_a;
-  result.index_b = feature.index_b;
-  result.axes_tested = by_face ? 6 : 15;
-  return result;
+  measure_edges(boxes, axes);
+  // A cross product of two unit axes is no longer than 1, up to its rounding: it shows no larger overlap than its unit
+  // axis. Crossings that are far shorter are left to the comparison below.
+  const Lanes least = smaller(smaller(axes.overlap[0], axes.overlap[1]),
+                              smaller(axes.overlap[2], smaller(axes.overlap[3], axes.overlap[4])));
+  if (bits_of_three(least < some * (1 + kSupportError)) == 0) {
+    return by_axes(Outcome::penetrating, kNoFeature, 15);
+  }
+  LaneMask open = (axes.overlap[0] < some) | (axes.overlap[1] < some);
+  for (int i = 0; i < 3; ++i) {
+    // Compared with noise times the length, squared. For parallel edges both sides are 0, which excludes no axis.
+    const Lanes overlap = signed_square(axes.overlap[2 + i]), limit = all_lanes(noise * noise) * axes.length_squared[i];
+    if (const int apart = bits_of_three(overlap < -limit)) {
+      const int k = std::countr_zero(static_cast<unsigned>(apart));
+      return by_axes(Outcome::separated, feature_of(2, i, k, ordered.swapped), 15);
+    }
+    open = open | (overlap < limit);
+  }
+  return by_axes(bits_of_three(open) != 0 ? Outcome::undecided : Outcome::penetrating, kNoFeature, 15);
 }
 
 SATCHECK_WIDE PairResult depth_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
