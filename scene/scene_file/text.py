@@ -9,13 +9,14 @@ from __future__ import annotations
 import json
 import math
 import re
-import tomllib
 from codecs import BOM_UTF8
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
+
+import tomli
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.access import OWN_FILE, Most
@@ -28,7 +29,6 @@ from satcheck.scene.words import why_unreadable
 T = TypeVar("T")
 
 MOST = 20  # errors told about one file
-_TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
 _BARE_LENGTH = r"""^[^"'#]*=[\s\[]*([-+]?[\d._e+-]+\s?[a-zµ]+)\b"""
 _TEXT = r'"[^"\\\n]*+(?:\\.[^"\\\n]*+)*+"'
 _NUMBERS = r"""\[[^][{}"'#]*+\]"""
@@ -174,18 +174,16 @@ def _parsed(text: str) -> dict[str, Any]:
     dotted = (line for line in text.split("\n") if line.count(".") >= MAX_DEPTH)
     if any(map(_LONG_KEY.search, dotted)):
         raise ValueError(f"a key has more than {MAX_DEPTH} parts")
-    return tomllib.loads(text)
+    return tomli.loads(text)
 
 
 def read_toml(path: str, text: str) -> dict[str, Any]:
     """Raises Refused. path: for messages."""
     try:
         return _parsed(text)
-    except tomllib.TOMLDecodeError as error:
-        match = re.fullmatch(_TOML_PLACE, str(error))
-        reason, line = match.groups() if match else (str(error), None)
-        line = int(line or len(text.splitlines()))
-        message = f"not well-formed TOML: {reason}"
+    except tomli.TOMLDecodeError as error:
+        line = min(error.lineno, len(text.splitlines()))
+        message = f"not well-formed TOML: {error.msg}"
         if bare := re.search(_BARE_LENGTH, "".join(text.splitlines()[line - 1 : line])):
             message = f'a length with a unit stands in quotes: "{bare[1]}"'
         raise Refused("bad-scene", message, file=path, line=line) from None
@@ -298,7 +296,7 @@ def _places(text: str, toml: bool, *, outer: bool = False) -> Iterator[tuple[Key
 def _names(key: str, toml: bool) -> Keys:
     """The parts of a dotted key."""
     names: list[str] = []
-    value: Any = tomllib.loads(f"{key} = 0") if toml else {json.loads(key): 0}
+    value: Any = tomli.loads(f"{key} = 0") if toml else {json.loads(key): 0}
     while isinstance(value, dict):
         ((name, value),) = value.items()
         names.append(name)
