@@ -49,8 +49,6 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.report import Report
 
-# Kinds of problems that make an asset incomplete.
-_OPEN = (NOTHING_TO_CHECK, "undecided")
 # What one asset does, and what several do.
 _VERDICTS: dict[AssetVerdict, tuple[str, str]] = {
     "error": ("has errors", "have errors"),
@@ -237,9 +235,7 @@ def cells_of(asset: Asset) -> tuple[str, str, str, str]:
 def _listed(asset: Asset) -> list[Problem]:
     """Return what the row of an asset tells, the worst first: why it does not pass."""
     listed = [p for p in problems({asset.file: asset.report}) if p.level != "note"]
-    listed.sort(key=lambda p: p.level != "error" and p.kind not in _OPEN)
-    why = [p for p in listed if p.level == "error" or p.kind in _OPEN]
-    return why or listed
+    return [p for p in listed if p.stops or p.level == "error"] or listed
 
 
 class Overview(Struct):

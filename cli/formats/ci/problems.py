@@ -13,8 +13,9 @@ from urllib.parse import quote
 
 from satcheck.audit.messages import kind_of
 from satcheck.audit.words import rank
+from satcheck.report.assets import LEFT_OUT
 from satcheck.report.bodies import Place
-from satcheck.report.report import OF_ANSWERS
+from satcheck.report.report import NOTHING_TO_CHECK, OF_ANSWERS
 from satcheck.report.verdict import severity
 
 if TYPE_CHECKING:
@@ -39,7 +40,8 @@ KINDS = {
 class Problem(NamedTuple):
     """kind: a key of KINDS, or the code of an issue. places: where each body is stated, in their
     order, or where the issue is; at least one. id: that of the finding; of an issue its code and
-    its body. rank: that of the finding; an issue comes last. state: beside a baseline.
+    its body. rank: that of the finding; an issue comes last. state: beside a baseline. stops:
+    nothing passes while it stands.
     """
 
     level: Level
@@ -50,6 +52,7 @@ class Problem(NamedTuple):
     id: str
     rank: tuple[float, ...] = (inf,)
     state: BaselineState | None = None
+    stops: bool = False
 
 
 def problems(reports: Reports) -> list[Problem]:
@@ -94,6 +97,13 @@ def _of_report(report: Report) -> list[Problem]:
     return findings + [_of_issue(issue, places, unmet) for issue in report.issues]
 
 
+def stops_pass(issue: Issue) -> bool:
+    """Return whether nothing passes while the issue stands."""
+    is_empty = issue.code == NOTHING_TO_CHECK and issue.severity == "warning"
+    is_open = issue.state == "blocking" or issue.code in LEFT_OUT or is_empty
+    return issue.severity == "error" or is_open
+
+
 def uri(file: str) -> str:
     """Relative to the current folder if the file lies in it, otherwise a file URI. Links are not
     followed: the name is stable."""
@@ -119,6 +129,7 @@ def _of_finding(finding: Finding, level: Level, places: dict[str, Place]) -> Pro
         finding.id,
         rank(finding),
         finding.baseline_state,
+        finding.undecided is not None,
     )
 
 
@@ -139,4 +150,5 @@ def _of_issue(issue: Issue, places: dict[str, Place], unmet: Collection[str]) ->
         (place,),
         body,
         f"{issue.code}/{where or ''}",
+        stops=stops_pass(issue),
     )
