@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.report import Report
 
+# In a batch: a length of the call has a unit, and the asset has none.
+_BAD_SETTING = "bad-setting"
 # What one asset does, and what several do.
 _VERDICTS: dict[AssetVerdict, tuple[str, str]] = {
     "error": ("has errors", "have errors"),
@@ -186,9 +188,13 @@ def _steps_of_folders(seen: Overview) -> list[str]:
 
         line = call_of("suggest", paths, ["-o", "rules.toml"])
         steps.append(f"Next: {line} proposes rules for overlaps that are meant.")
-    for file in seen.named.get("error", [])[:1]:
-        name = shlex.quote(escape(PurePath(file).name))
-        steps.append(f"Next: --exclude {name} leaves out {file} until it is mended.")
+    wrong = [a for a in seen.shown if a.verdict == "error"]
+    unmeasured = [a for a in wrong if any(i.code == _BAD_SETTING for i in a.report.issues)]
+    if unmeasured:
+        steps.append("Next: --units states the unit of files that have none.")
+    for asset in [each for each in wrong if each not in unmeasured][:1]:
+        name = shlex.quote(escape(PurePath(asset.file).name))
+        steps.append(f"Next: --exclude {name} leaves out {asset.file} until it is mended.")
     return steps
 
 
@@ -225,7 +231,7 @@ def cells_of(asset: Asset) -> tuple[str, str, str, str]:
     report = with_titles(asset.report)
     failed, total = failing(report), asset.report.summary.pairs.total
     pairs = f"{len(failed):,} of {total:,}" if total else ""
-    if failed:
+    if failed and asset.verdict == "fail":
         return asset.file, asset.verdict, pairs, clause(failed[0], report, brief=True)
     listed = _listed(asset)
     more = f" (and {len(listed) - 1:,} more)" if len(listed) > 1 else ""

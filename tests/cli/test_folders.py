@@ -393,6 +393,9 @@ def test_a_length_without_known_units_is_an_error_of_the_asset(assets: Path) -> 
     issues = {Path(each["file"]).name: each["report"]["issues"] for each in document["assets"]}
     assert [issue["code"] for issue in issues["pair.toml"]] == ["bad-setting"]
     assert "--units" in issues["pair.toml"][0]["message"]
+    table = satcheck("batch", str(assets), "--clearance", "1mm").out
+    assert "\nNext: --units states the unit of files that have none.\n" in table
+    assert "--exclude pair.toml" not in table
     assert issues["box.obj"] == []  # a body alone has no pair that the length is about
 
 
