@@ -13,6 +13,7 @@ from urllib.parse import quote
 
 from satcheck.audit.messages import kind_of
 from satcheck.audit.words import rank
+from satcheck.cli.output import with_place
 from satcheck.report.assets import LEFT_OUT
 from satcheck.report.bodies import Place
 from satcheck.report.report import NOTHING_TO_CHECK, OF_ANSWERS
@@ -142,11 +143,10 @@ def _of_issue(issue: Issue, places: dict[str, Place], unmet: Collection[str]) ->
     place = places.get(issue.body or "", first)
     if issue.file:
         place = Place(issue.file, issue.line or 1)
-    named = f"{where}: " if where and not issue.message.startswith(where) else ""
     return Problem(
         "error" if issue.code in OF_ANSWERS and issue.body in unmet else issue.severity,
         issue.code,
-        f"{named}{issue.message}",
+        with_place(issue),
         (place,),
         body,
         f"{issue.code}/{where or ''}",
