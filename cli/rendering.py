@@ -14,7 +14,7 @@ from satcheck.audit import Report
 from satcheck.audit.words import counted, with_titles
 from satcheck.cli.format_option import Target
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.summary import FACETED, MESHES, closing
+from satcheck.cli.formats.summary import FACETED, MESHES, closing, issues_to_tell
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.output import Document, Page, harmless, talk, tell_issues
 from satcheck.report.json import document as json_document
@@ -102,7 +102,8 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
     else:
         result = with_titles(result)
         counts, *others = closing(result, written=True)
-    warnings = [i for i in result.issues if i.severity == "warning" or i.code == FACETED]
+    told_issues = issues_to_tell(result)
+    warnings = [i for i in told_issues if i.severity == "warning" or i.code == FACETED]
     warnings.sort(key=lambda issue: issue.code in MESHES)  # the least grave
     tell_issues(warnings[:WARNINGS])
     if len(warnings) > WARNINGS:

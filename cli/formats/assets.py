@@ -26,7 +26,7 @@ from satcheck.cli import exit_codes
 from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.remarks import codes_counted
-from satcheck.cli.formats.summary import BesideBaseline, config_lines
+from satcheck.cli.formats.summary import BesideBaseline, config_lines, issues_to_tell
 from satcheck.cli.formats.tables import (
     ROWS,
     VERDICT_STYLES,
@@ -318,7 +318,7 @@ class Overview(Struct):
     def _note_warnings(self, asset: Asset) -> None:
         warnings = Counter(
             issue.code
-            for issue in asset.report.issues
+            for issue in issues_to_tell(asset.report)
             if issue.severity == "warning" and issue.state is None
         )
         del warnings[NOTHING_TO_CHECK]  # told as such

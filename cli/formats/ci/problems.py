@@ -13,6 +13,7 @@ from urllib.parse import quote
 
 from satcheck.audit.messages import kind_of
 from satcheck.audit.words import rank
+from satcheck.cli.formats.summary import issues_to_tell
 from satcheck.cli.output import with_place
 from satcheck.report.assets import LEFT_OUT
 from satcheck.report.bodies import Place
@@ -95,7 +96,7 @@ def _of_report(report: Report) -> list[Problem]:
         if (level := severity(finding)) in ("error", "warning", "note")
     ]
     unmet = {answer.body for answer in report.answers if answer.severity == "error"}
-    return findings + [_of_issue(issue, places, unmet) for issue in report.issues]
+    return findings + [_of_issue(issue, places, unmet) for issue in issues_to_tell(report)]
 
 
 def stops_pass(issue: Issue) -> bool:
