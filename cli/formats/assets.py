@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 from msgspec import Struct, field
 
+from satcheck.audit.baseline import files_of
 from satcheck.audit.batch.check_world import beside_assets
 from satcheck.audit.batch.remote import is_url
 from satcheck.audit.batch.stored import least_of
@@ -110,7 +111,7 @@ def _with_what_is_open(issues: Iterable[Issue], assets: AssetReports) -> AssetRe
 
 def render(seen: Overview, page: Page) -> str:
     """Return the whole text, final newline included."""
-    root = common_root([asset.file for asset in seen.shown])
+    root = common_root([file for asset in seen.shown for file in files_of(asset.file)])
     said = hidden(seen.listed - len(seen.shown), "asset") + all_begin(root)
     said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen)]
     said += [*next_step(seen), *_steps_of_folders(seen)]
@@ -198,14 +199,15 @@ def _steps_of_folders(seen: Overview) -> list[str]:
     return steps
 
 
-def _check_of(file: str) -> str:
+def _check_of(asset: str) -> str:
     """With the options of this call, if a command renders."""
+    files = files_of(asset)
     if click.get_current_context(silent=True) is None:
-        return f"satcheck {shlex.quote(file)}"
+        return shlex.join(["satcheck", *files])
     from satcheck.cli.commands import DEFAULT_COMMAND
     from satcheck.cli.slips import call_of
 
-    return call_of(DEFAULT_COMMAND, [file])
+    return call_of(DEFAULT_COMMAND, files)
 
 
 def _named(seen: Overview, verdict: AssetVerdict) -> str:
@@ -218,12 +220,16 @@ def _named(seen: Overview, verdict: AssetVerdict) -> str:
 def _table(assets: list[Asset], root: str, page: Page) -> list[str]:
     file, verdict, pairs, worst = zip(*map(cells_of, assets), strict=True)
     columns = (
-        Column("asset", tuple(name.removeprefix(root) for name in file), named=True),
+        Column("asset", tuple(_without(root, name) for name in file), named=True),
         Column("verdict", verdict, graded=True),
         Column("fail", pairs, right=True),
         Column("worst", worst, folds=True),
     )
     return table(columns, page, [VERDICT_STYLES[asset.verdict] for asset in assets])
+
+
+def _without(root: str, asset: str) -> str:
+    return ", ".join(file.removeprefix(root) for file in files_of(asset))
 
 
 def cells_of(asset: Asset) -> tuple[str, str, str, str]:
