@@ -181,13 +181,11 @@ def gone_assets(baseline: Baseline, file: Path) -> Counter[str]:
     """Return the assets that are no files any more, with the number of their known findings. file:
     of the baseline."""
     known, folder = Counter(filter(None, baseline.assets)), followed(file.parent)
-    return Counter(
-        {
-            asset: n
-            for asset, n in known.items()
-            if not (exists(folder / asset) or all(exists(folder / f) for f in asset.split(", ")))
-        }
-    )
+
+    def is_there(asset: str) -> bool:
+        return exists(folder / asset) or all(exists(folder / f) for f in asset.split(", "))
+
+    return Counter({asset: n for asset, n in known.items() if not is_there(asset)})
 
 
 def about_gone_assets(baseline: Baseline, file: Path) -> tuple[Issue, ...]:

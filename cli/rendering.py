@@ -3,7 +3,7 @@ that contradict each other."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from functools import partial
 from typing import Any
 
@@ -19,6 +19,7 @@ from satcheck.cli.inputs import Inputs
 from satcheck.cli.output import Document, Page, harmless, talk, tell_issues
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
+from satcheck.report.report import Issue
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 
@@ -99,11 +100,12 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
         from satcheck.cli.formats.samples import closing as closing_of_poses
 
         counts, *others = closing_of_poses(result, written=True)
+        issues: Sequence[Issue] = result.issues
     else:
         result = with_titles(result)
         counts, *others = closing(result, written=True)
-    told_issues = issues_to_tell(result)
-    warnings = [i for i in told_issues if i.severity == "warning" or i.code == FACETED]
+        issues = issues_to_tell(result)
+    warnings = [i for i in issues if i.severity == "warning" or i.code == FACETED]
     warnings.sort(key=lambda issue: issue.code in MESHES)  # the least grave
     tell_issues(warnings[:WARNINGS])
     if len(warnings) > WARNINGS:

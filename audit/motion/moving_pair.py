@@ -216,8 +216,8 @@ class MovingPair:
         self._spend(STEPS_OF_POSE)
         placed = self.placed(t)
         if clearance:
-            by = {"overlap": ALWAYS, "distance": ALWAYS}
-            request = Request(by, tolerance=self.tolerance, clearance=clearance)
+            by = {**placed.request.by, "distance": ALWAYS}
+            request = replace(placed.request, by=by, clearance=clearance)
             placed = replace(placed, request=request)
         draft = Draft(placed)
         finding = examine(draft)

@@ -184,7 +184,8 @@ def _steps_of_folders(seen: Overview) -> list[str]:
     if ctx is None or not paths or not all(map(is_folder, paths)):
         return []
     steps = []
-    if seen.named.get("fail") and not (ctx.params["rules"] or ctx.params["baseline"]):
+    fails = any(failing(asset.report) for asset in seen.shown)  # else none has an overlap
+    if fails and not (ctx.params["rules"] or ctx.params["baseline"]):
         from satcheck.cli.slips import call_of
 
         line = call_of("suggest", paths, ["-o", "rules.toml"])

@@ -19,7 +19,6 @@ from satcheck.scene.bodies import UNITS_UNKNOWN
 if TYPE_CHECKING:
     from satcheck.report.baseline import BaselineState
     from satcheck.report.report import Finding, Issue, Report
-    from satcheck.report.samples import SamplesReport
     from satcheck.report.settings import StatedConfig
     from satcheck.report.sweep import Sweep
 
@@ -40,7 +39,7 @@ MESHES = {
 }
 
 
-def issues_to_tell(report: Report | SamplesReport) -> list[Issue]:
+def issues_to_tell(report: Report) -> list[Issue]:
     """Return the issues but those about meshes that are open on purpose, which JSON has."""
     named: dict[bool, set[str]] = {True: set(), False: set()}
     for body in report.bodies:
