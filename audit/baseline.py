@@ -181,7 +181,11 @@ def gone_assets(baseline: Baseline, file: Path) -> Counter[str]:
     """Return the assets that are no files any more, with the number of their known findings. file:
     of the baseline."""
     known, folder = Counter(filter(None, baseline.assets)), followed(file.parent)
-    return Counter({asset: n for asset, n in known.items() if not exists(folder / asset)})
+
+    def is_there(asset: str) -> bool:
+        return exists(folder / asset) or all(exists(folder / f) for f in asset.split(", "))
+
+    return Counter({asset: n for asset, n in known.items() if not is_there(asset)})
 
 
 def about_gone_assets(baseline: Baseline, file: Path) -> tuple[Issue, ...]:
@@ -391,14 +395,21 @@ def _read_once(path: Path, _: Signature) -> tuple[Baseline, FilesRead]:
         return read_baseline(path), files
 
 
+def files_of(asset: str) -> list[str]:
+    """The files of an asset of `satcheck batch`, which its name lists."""
+    return [asset] if exists(Path(asset)) else asset.split(", ")
+
+
 def asset_key(asset: str, baseline: Path) -> str:
-    """The name of an asset in a baseline: relative to the folder of the baseline, with `/`, so that
-    it does not depend on where the command runs, nor on links that lead to a folder."""
-    file = followed(Path(asset).parent) / Path(asset).name
-    return Path(os.path.relpath(file, followed(baseline.parent))).as_posix()
+    """The name of an asset in a baseline: its files, relative to the folder of the baseline, with
+    `/`, so that it does not depend on where the command runs, nor on links that lead to a folder.
+    """
+    folder = followed(baseline.parent)
+    files = [followed(Path(file).parent) / Path(file).name for file in files_of(asset)]
+    return ", ".join(Path(os.path.relpath(file, folder)).as_posix() for file in files)
 
 
 def names_in_baseline(paths: Sequence[str], baseline: Path) -> tuple[str, ...]:
-    """What a baseline may call the input of a plain check. One file is the asset that
-    `satcheck batch` checks: its bodies have the same ids."""
-    return (asset_key(paths[0], baseline), "") if len(paths) == 1 else ("",)
+    """What a baseline may call the input of a plain check: as the asset of these files that
+    `satcheck batch` checks, whose bodies have the same ids, or not at all."""
+    return (asset_key(", ".join(paths), baseline), "")

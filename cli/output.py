@@ -218,7 +218,13 @@ def _page(stream: TextIO) -> Page:
 def issue_line(issue: Issue | InputIssue) -> str:
     """`warning: l_bracket: 2 open edges [open-mesh]`, as it also goes to stderr; one line, whatever
     the names are."""
-    where = issue.body or issue.file
-    known = tuple(filter(None, (where, issue.file)))
-    named = f"{where}: " if known and not issue.message.startswith(known) else ""
-    return harmless(f"{issue.severity}: {named}{issue.message} [{issue.code}]")
+    return harmless(f"{issue.severity}: {with_place(issue)} [{issue.code}]")
+
+
+def with_place(issue: Issue | InputIssue) -> str:
+    """Return the message, with its body or file in front if it begins with neither."""
+    body, file = issue.body or "", issue.file or ""
+    begins = body and issue.message.startswith((f"{body}:", f"{body} is ", f"{body} and "))
+    if begins or not (body or file) or (file and issue.message.startswith(file)):
+        return issue.message
+    return f"{body or file}: {issue.message}"

@@ -3,7 +3,7 @@ that contradict each other."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from functools import partial
 from typing import Any
 
@@ -14,11 +14,12 @@ from satcheck.audit import Report
 from satcheck.audit.words import counted, with_titles
 from satcheck.cli.format_option import Target
 from satcheck.cli.formats.registry import kind_of, pieces
-from satcheck.cli.formats.summary import FACETED, MESHES, closing
+from satcheck.cli.formats.summary import FACETED, MESHES, closing, issues_to_tell
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.output import Document, Page, harmless, talk, tell_issues
 from satcheck.report.json import document as json_document
 from satcheck.report.json import render as render_json
+from satcheck.report.report import Issue
 from satcheck.report.samples import SamplesReport
 from satcheck.scene import Scene
 
@@ -99,10 +100,12 @@ def tell(result: Report | SamplesReport, scene: Scene, files: str, *, written: b
         from satcheck.cli.formats.samples import closing as closing_of_poses
 
         counts, *others = closing_of_poses(result, written=True)
+        issues: Sequence[Issue] = result.issues
     else:
         result = with_titles(result)
         counts, *others = closing(result, written=True)
-    warnings = [i for i in result.issues if i.severity == "warning" or i.code == FACETED]
+        issues = issues_to_tell(result)
+    warnings = [i for i in issues if i.severity == "warning" or i.code == FACETED]
     warnings.sort(key=lambda issue: issue.code in MESHES)  # the least grave
     tell_issues(warnings[:WARNINGS])
     if len(warnings) > WARNINGS:

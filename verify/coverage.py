@@ -137,6 +137,8 @@ def uncovered(document: dict[str, Any], left: Iterable[str]) -> tuple[Uncovered,
             fields.append(Uncovered(field, cover.kind, cover.called, counts[field]))
         elif cover.kind in ("stated", "not covered") and any(_values(document, field)):
             fields.append(Uncovered(field, cover.kind, cover.called))
+            if field == "bodies[].shape":  # the file that states a shape is not read again
+                fields.append(Uncovered("bodies[].file", cover.kind, cover.called))
     return tuple(fields)
 
 

@@ -268,6 +268,8 @@ def _check_mtv(claim: Claim) -> bool:
     """
     finding, proof = claim.finding, claim.certificate.mtv
     if finding.mtv_verified is not True or finding.mtv is None:
+        if not isinstance(proof, UnsetType):
+            raise Rejected("the certificate has an 'mtv', which the finding calls unverified")
         return False
     if isinstance(proof, UnsetType):
         if claim.pair.closer:

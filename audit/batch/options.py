@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 
 from msgspec import Struct
 
@@ -20,6 +21,14 @@ World = tuple[str, ...]
 SettingValue = bool | int | float | str | tuple[str, ...] | Length | None
 # A measured time is at least this long, as clocks are coarse.
 _SHORTEST_SECONDS = 1e-3
+
+
+def name_of(world: World) -> str:
+    """Return what a report calls the world as an asset: its files."""
+    folder, *files = world
+    if files and all(Path(name).is_relative_to(folder) for name in files):
+        return folder  # with files in it that no reader knows
+    return ", ".join(world)
 
 
 class CheckOptions(LoadOptions, frozen=True, kw_only=True):

@@ -16,7 +16,7 @@ from typing import Literal, NamedTuple, Self, TypeVar
 import msgspec
 
 from satcheck.audit.batch.check_world import unreadable_asset
-from satcheck.audit.batch.options import World
+from satcheck.audit.batch.options import World, name_of
 from satcheck.audit.batch.results import PART, complete_lines, part_of, resolved
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, AssetVerdict, InputFile, Result, worst_verdict
@@ -140,13 +140,13 @@ class StoredResults:
             missing.pop(lines[0].name.files, None)
             if _differ(lines):
                 different += 1
-                first_different = first_different or _named(lines[0].name.files)
+                first_different = first_different or name_of(lines[0].name.files)
         if different:
             which = f"{first_different}{_more(different - 1)}"
             reason = f"{which}: different results in several files{_LAST_COUNTS}"
             yield Issue(DIFFERENT, "warning", None, None, reason)
         if missing:
-            which = f"{_named(next(iter(missing)))}{_more(len(missing) - 1)}"
+            which = f"{name_of(next(iter(missing)))}{_more(len(missing) - 1)}"
             yield Issue(MISSING, "warning", None, None, f"{which}: no result in these files")
         if not self._count:
             yield Issue(NO_RESULTS, "warning", None, None, _NO_RESULTS)
@@ -170,7 +170,7 @@ class NewResults:
 
 
 def _stored(result: Result) -> Stored:
-    asset = Asset(_named(result.files), result.verdict, result.report)
+    asset = Asset(name_of(result.files), result.verdict, result.report)
     return Stored(result.files, result.inputs, asset)
 
 
@@ -182,13 +182,6 @@ def _files_of(path: Path) -> Iterator[Path]:
         yield path
     if part.exists():
         yield part
-
-
-def _named(world: World) -> str:
-    folder, *files = world
-    if files and all(Path(name).is_relative_to(folder) for name in files):
-        return folder  # with files in it that no reader knows
-    return ", ".join(world)
 
 
 def _more(scenes: int) -> str:
@@ -282,7 +275,7 @@ def _decoded(line: bytes, kind: type[_T]) -> _T:
 
 
 def _read(line: _Line) -> Stored:
-    name = _named(line.name.files)
+    name = name_of(line.name.files)
     try:
         result = _decoded(line.text, Result)
         _require_bodies(result)

@@ -78,13 +78,14 @@ def first_impact(pair: MovingPair, gaps: Sequence[float] = ()) -> Impact:
         return Impact(1.0, None, 1.0, gap=pair.free_gap)
     try:
         start = pair.found_at(pair.stretches[0][0])
+        if overlaps(start):
+            return Impact(0.0, 0.0, 0.0, 0.0)
+        if start.relation == "indeterminate" or start.relation in OVERLAPS:
+            reason = f"undecided where the motion starts: {start.reason}"
+            upper = _first_overlap(pair, 0.0) if pair.pair.may("exact") else None
+            return Impact(0.0, upper, 0.0, 0.0, reason if upper is None else None)
     except Unanswerable as why:
         return Impact(0.0, None, 0.0, None, str(why))
-    if overlaps(start):
-        return Impact(0.0, 0.0, 0.0, 0.0)
-    if start.relation == "indeterminate" or start.relation in OVERLAPS:
-        reason = f"undecided where the motion starts: {start.reason}"
-        return Impact(0.0, None, 0.0, 0.0, reason)
     # A possible touch counts as a contact; the scan itself proves how deep it is.
     scan = _Scan(pair, gaps, outside=start.exact_relation in FREE)
     try:

@@ -211,10 +211,15 @@ class MovingPair:
             moves=None,
         )
 
-    def found_at(self, t: float) -> Finding:
-        """The finding at t, exact for the poses rounded to float64."""
+    def found_at(self, t: float, clearance: float | None = None) -> Finding:
+        """The finding at t, exact for the poses rounded to float64. clearance: it has to keep."""
         self._spend(STEPS_OF_POSE)
-        draft = Draft(self.placed(t))
+        placed = self.placed(t)
+        if clearance:
+            by = {**placed.request.by, "distance": ALWAYS}
+            request = replace(placed.request, by=by, clearance=clearance)
+            placed = replace(placed, request=request)
+        draft = Draft(placed)
         finding = examine(draft)
         self.pair.sweep_steps += draft.steps + draft.work
         return finding

@@ -148,6 +148,8 @@ def _hit(pair: MovingPair, impact: Impact, upper: float, poses: Poses) -> Sweep:
 
 def _free(pair: MovingPair, impact: Impact, poses: Poses) -> Sweep:
     worst, clearance = _nearest(pair, impact), pair.pair.request.clearance
+    if worst is not None and clearance and worst.lower < clearance <= worst.upper:
+        worst = _as_placed(pair, worst, clearance)
     relation = _relation_apart(impact, worst, pair.tolerance, clearance)
     holes = holed(pair.pair)
     if holes and not pair.hulls_apart:
@@ -183,6 +185,15 @@ def _nearest(pair: MovingPair, impact: Impact) -> Worst | None:
     except Unanswerable:
         return None
     return None if gap is None else Worst(contact, 0.0, max(gap, 0.0))
+
+
+def _as_placed(pair: MovingPair, worst: Worst, clearance: float) -> Worst:
+    """The worst pose, nearer than the clearance if it is so as a pose at rest, which is exact."""
+    try:
+        is_near = pair.found_at(worst.time, clearance).relation == "near"
+    except Unanswerable:
+        return worst
+    return replace(worst, upper=math.nextafter(clearance, 0.0)) if is_near else worst
 
 
 class Movers:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 from msgspec import Struct, field
 
+from satcheck.audit.baseline import files_of
 from satcheck.audit.batch.check_world import beside_assets
 from satcheck.audit.batch.remote import is_url
 from satcheck.audit.batch.stored import least_of
@@ -26,7 +27,7 @@ from satcheck.cli import exit_codes
 from satcheck.cli.formats.ci.problems import problems
 from satcheck.cli.formats.registry import kind_of, pieces
 from satcheck.cli.formats.remarks import codes_counted
-from satcheck.cli.formats.summary import BesideBaseline, config_lines
+from satcheck.cli.formats.summary import BesideBaseline, config_lines, issues_to_tell
 from satcheck.cli.formats.tables import (
     ROWS,
     VERDICT_STYLES,
@@ -49,8 +50,8 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.report import Report
 
-# Kinds of problems that make an asset incomplete.
-_OPEN = (NOTHING_TO_CHECK, "undecided")
+# In a batch: a length of the call has a unit, and the asset has none.
+_BAD_SETTING = "bad-setting"
 # What one asset does, and what several do.
 _VERDICTS: dict[AssetVerdict, tuple[str, str]] = {
     "error": ("has errors", "have errors"),
@@ -110,7 +111,7 @@ def _with_what_is_open(issues: Iterable[Issue], assets: AssetReports) -> AssetRe
 
 def render(seen: Overview, page: Page) -> str:
     """Return the whole text, final newline included."""
-    root = common_root([asset.file for asset in seen.shown])
+    root = common_root([file for asset in seen.shown for file in files_of(asset.file)])
     said = hidden(seen.listed - len(seen.shown), "asset") + all_begin(root)
     said += [*map(issue_line, seen.issues), *seen.config, *_summary(seen)]
     said += [*next_step(seen), *_steps_of_folders(seen)]
@@ -183,25 +184,31 @@ def _steps_of_folders(seen: Overview) -> list[str]:
     if ctx is None or not paths or not all(map(is_folder, paths)):
         return []
     steps = []
-    if seen.named.get("fail") and not (ctx.params["rules"] or ctx.params["baseline"]):
+    fails = any(failing(asset.report) for asset in seen.shown)  # else none has an overlap
+    if fails and not (ctx.params["rules"] or ctx.params["baseline"]):
         from satcheck.cli.slips import call_of
 
         line = call_of("suggest", paths, ["-o", "rules.toml"])
         steps.append(f"Next: {line} proposes rules for overlaps that are meant.")
-    for file in seen.named.get("error", [])[:1]:
-        name = shlex.quote(escape(PurePath(file).name))
-        steps.append(f"Next: --exclude {name} leaves out {file} until it is mended.")
+    wrong = [a for a in seen.shown if a.verdict == "error"]
+    unmeasured = [a for a in wrong if any(i.code == _BAD_SETTING for i in a.report.issues)]
+    if unmeasured:
+        steps.append("Next: --units states the unit of files that have none.")
+    for asset in [each for each in wrong if each not in unmeasured][:1]:
+        name = shlex.quote(escape(PurePath(asset.file).name))
+        steps.append(f"Next: --exclude {name} leaves out {asset.file} until it is mended.")
     return steps
 
 
-def _check_of(file: str) -> str:
+def _check_of(asset: str) -> str:
     """With the options of this call, if a command renders."""
+    files = files_of(asset)
     if click.get_current_context(silent=True) is None:
-        return f"satcheck {shlex.quote(file)}"
+        return shlex.join(["satcheck", *files])
     from satcheck.cli.commands import DEFAULT_COMMAND
     from satcheck.cli.slips import call_of
 
-    return call_of(DEFAULT_COMMAND, [file])
+    return call_of(DEFAULT_COMMAND, files)
 
 
 def _named(seen: Overview, verdict: AssetVerdict) -> str:
@@ -214,7 +221,7 @@ def _named(seen: Overview, verdict: AssetVerdict) -> str:
 def _table(assets: list[Asset], root: str, page: Page) -> list[str]:
     file, verdict, pairs, worst = zip(*map(cells_of, assets), strict=True)
     columns = (
-        Column("asset", tuple(name.removeprefix(root) for name in file), named=True),
+        Column("asset", tuple(_without(root, name) for name in file), named=True),
         Column("verdict", verdict, graded=True),
         Column("fail", pairs, right=True),
         Column("worst", worst, folds=True),
@@ -222,12 +229,16 @@ def _table(assets: list[Asset], root: str, page: Page) -> list[str]:
     return table(columns, page, [VERDICT_STYLES[asset.verdict] for asset in assets])
 
 
+def _without(root: str, asset: str) -> str:
+    return ", ".join(file.removeprefix(root) for file in files_of(asset))
+
+
 def cells_of(asset: Asset) -> tuple[str, str, str, str]:
     """Return the asset, its verdict, how many of its pairs fail, and its worst problem."""
     report = with_titles(asset.report)
     failed, total = failing(report), asset.report.summary.pairs.total
     pairs = f"{len(failed):,} of {total:,}" if total else ""
-    if failed:
+    if failed and asset.verdict == "fail":
         return asset.file, asset.verdict, pairs, clause(failed[0], report, brief=True)
     listed = _listed(asset)
     more = f" (and {len(listed) - 1:,} more)" if len(listed) > 1 else ""
@@ -237,9 +248,7 @@ def cells_of(asset: Asset) -> tuple[str, str, str, str]:
 def _listed(asset: Asset) -> list[Problem]:
     """Return what the row of an asset tells, the worst first: why it does not pass."""
     listed = [p for p in problems({asset.file: asset.report}) if p.level != "note"]
-    listed.sort(key=lambda p: p.level != "error" and p.kind not in _OPEN)
-    why = [p for p in listed if p.level == "error" or p.kind in _OPEN]
-    return why or listed
+    return [p for p in listed if p.stops or p.level == "error"] or listed
 
 
 class Overview(Struct):
@@ -316,7 +325,7 @@ class Overview(Struct):
     def _note_warnings(self, asset: Asset) -> None:
         warnings = Counter(
             issue.code
-            for issue in asset.report.issues
+            for issue in issues_to_tell(asset.report)
             if issue.severity == "warning" and issue.state is None
         )
         del warnings[NOTHING_TO_CHECK]  # told as such

@@ -18,7 +18,7 @@ from satcheck.audit.words import (
     rule_of,
     with_unit,
 )
-from satcheck.cli.formats.summary import MESHES
+from satcheck.cli.formats.summary import MESHES, issues_to_tell
 from satcheck.cli.formats.tables import YELLOW, fitted, fitted_each
 from satcheck.cli.output import issue_line
 from satcheck.report.report import (
@@ -168,7 +168,7 @@ def _issues(report: Report, shown: Sequence[Finding], page: Page) -> Iterator[st
     more: Counter[str] = Counter()
     idle: Counter[str] = Counter()
     unused = 0
-    for issue in report.issues:
+    for issue in issues_to_tell(report):
         if issue.severity == "error" or issue.code in (*OF_ANSWERS, NOTHING_TO_CHECK):
             continue
         if issue.code == UNUSED_RULE and issue.severity == "note":

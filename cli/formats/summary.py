@@ -18,7 +18,7 @@ from satcheck.scene.bodies import UNITS_UNKNOWN
 
 if TYPE_CHECKING:
     from satcheck.report.baseline import BaselineState
-    from satcheck.report.report import Finding, Report
+    from satcheck.report.report import Finding, Issue, Report
     from satcheck.report.settings import StatedConfig
     from satcheck.report.sweep import Sweep
 
@@ -37,6 +37,15 @@ MESHES = {
     "degenerate-triangles": ("mesh with empty triangles", "meshes with empty triangles"),
     "duplicate-triangles": ("mesh with repeated triangles", "meshes with repeated triangles"),
 }
+
+
+def issues_to_tell(report: Report) -> list[Issue]:
+    """Return the issues but those about meshes that are open on purpose, which JSON has."""
+    named: dict[bool, set[str]] = {True: set(), False: set()}
+    for body in report.bodies:
+        named[body.open or report.settings.allow_open].update((body.id, body.file))
+    told = named[True] - named[False]
+    return [i for i in report.issues if i.code != "not-closed" or (i.body or i.file) not in told]
 
 
 _STATES: tuple[BaselineState, ...] = ("accepted", "new", "worse", "undecided")

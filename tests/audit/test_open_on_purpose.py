@@ -39,6 +39,17 @@ def test_a_body_that_is_open_on_purpose_has_no_hole(tmp_path: Path) -> None:
     assert [body.open for body in opened.bodies] == [True, False]
 
 
+@pytest.mark.parametrize("form", ["table", "github", "sarif", "markdown", "json"])
+def test_only_json_warns_of_what_is_open_on_purpose(form: str, tmp_path: Path) -> None:
+    files = [*map(str, write(tmp_path, shell=open_box(), part=unit_box(1, 1, 3.5)))]
+    (tmp_path / "rules.toml").write_text(f"[[rules]]\n{LID}\n")
+    for option in (("--allow-open",), ("--rules", str(tmp_path / "rules.toml")), ()):
+        told = satcheck(*files, *option, "--format", form).out
+        assert ("open mesh" in told) == (form == "json" or not option)
+    batch = satcheck("batch", files[0], "--allow-open", "-o", str(tmp_path / "out.md"))
+    assert "open mesh" not in batch.err
+
+
 @pytest.mark.parametrize(
     ("rule", "expected"),
     [

@@ -416,6 +416,34 @@ def test_a_body_that_leaves_its_region_fails_in_every_format(tmp_path: Path) -> 
     assert (passed.code, "1 body inside the region" in passed.out) == (0, True)
 
 
+@pytest.mark.parametrize(
+    "form", ["table", "csv", "json", "jsonl", "github", "junit", "sarif", "markdown"]
+)
+def test_every_format_tells_what_was_not_read(form: str, tmp_path: Path) -> None:
+    (tmp_path / "box.obj").write_bytes((SAMPLES / "box.obj").read_bytes())
+    (tmp_path / "hull.fbx").write_text("not a mesh for us")
+    ran = satcheck("batch", str(tmp_path), "--format", form)
+    assert (ran.code, "hull.fbx" in ran.out) == (3, True)
+
+
+def test_csv_has_a_row_for_what_lets_nothing_pass(tmp_path: Path) -> None:
+    """Also if nothing but the summary tells of it, and for the answer about a single body."""
+    summary = replace(report(SEPARATED).summary, verdict="incomplete")
+    silent = replace(scene_report(SEPARATED), summary=summary, issues=())
+    (first, _) = rows_of(render({"all": silent}, "csv"))
+    assert first["reason"].startswith(silent.message)
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        'schema = "satcheck.scene/1"\nunits = "m"\n'
+        '[[bodies]]\nid = "room"\nshape = { type = "box", size = [4, 4, 4] }\n'
+        '[[bodies]]\nid = "lamp"\nshape = { type = "box", size = [1, 1, 1] }\n'
+        "position = [0, 0, 1.75]\n"
+        '[[rules]]\nbodies = "room"\nregion = true\n[[rules]]\nbodies = "*"\ninside = "room"\n'
+    )
+    (row,) = rows_of(satcheck(str(scene), "--format", "csv").out)
+    assert (row["a"], row["fails"], row["severity"]) == ("lamp", "true", "error")
+
+
 @pytest.mark.parametrize("form", ["table", "github", "junit", "sarif", "markdown"])
 def test_every_format_prints_the_same_message(form: str) -> None:
     said = satcheck(*PUSHED, "--format", form).out.replace("\\", "")

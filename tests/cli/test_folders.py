@@ -105,7 +105,7 @@ def test_such_files_stand_in_every_format(foreign: Path) -> None:
     assert "props/chair.FBX: files of FBX are not read" in " ".join(table.out.split())
     assert "Next:" not in table.out
     suites = JUnitXml.fromstring(satcheck("batch", str(foreign), "--format", "junit").out.encode())
-    assert sum(suite.errors for suite in suites) == 1
+    assert sum(suite.errors for suite in suites) == 2
     assert "chair.FBX" in satcheck("batch", str(foreign), "--format", "github").out
     into = ("batch", "props", "-o", "results.jsonl")
     assert satcheck(*into, cwd=foreign.parent).code == 3
@@ -393,6 +393,9 @@ def test_a_length_without_known_units_is_an_error_of_the_asset(assets: Path) -> 
     issues = {Path(each["file"]).name: each["report"]["issues"] for each in document["assets"]}
     assert [issue["code"] for issue in issues["pair.toml"]] == ["bad-setting"]
     assert "--units" in issues["pair.toml"][0]["message"]
+    table = satcheck("batch", str(assets), "--clearance", "1mm").out
+    assert "\nNext: --units states the unit of files that have none.\n" in table
+    assert "--exclude pair.toml" not in table
     assert issues["box.obj"] == []  # a body alone has no pair that the length is about
 
 

@@ -30,6 +30,7 @@ WORDS = {
     "undecided": ("relation", "inside", "limit", "motion", "cross-check"),
     "verdict": ("pass", "fail", "incomplete"),
     "mtv_moves": ("b",),
+    "file": ("elsewhere.toml",),
     "answer": ("yes", "no", "open"),
     "question": ("supported", "stable"),
     "fixed": ("static", "mounted"),
@@ -113,8 +114,6 @@ def is_no_lie(path: Place, value: Any, forged: Any) -> bool:
         return path[-1] != "undecided"
     if path[-1] == "certificate" and isinstance(forged, dict) and forged.keys() < value.keys():
         return True  # what it proved is then named as not covered, or rejected
-    if path[-1] == "mtv_verified" and forged is False:
-        return True
     if path == ("pose",) and forged == {}:
         return True
     if isinstance(value, dict) and isinstance(forged, dict) and "microseconds" in value:

@@ -1,6 +1,6 @@
-"""CSV (RFC 4180) for spreadsheets: a row for each error of an input and for each finding that the
-reports list, the worst first. Left out are columns that would be empty and, unless a report has one
-pair only, separated pairs whose gap was not asked for.
+"""CSV (RFC 4180) for spreadsheets: a row for each finding that the reports list, for each wrong or
+open answer about a body, and for what lets nothing pass, the worst first. Left out are columns that
+would be empty and, unless a report has one pair only, separated pairs whose gap was not asked for.
 
 A spreadsheet takes a cell that begins with one of `=+-@` for a formula, whatever its quotes. A text
 that begins so gets an apostrophe in front (OWASP, CSV Injection); numbers stay as they are. Texts
@@ -14,9 +14,13 @@ import csv
 import io
 from typing import TYPE_CHECKING, Any
 
+from satcheck.audit.messages import answer_message
 from satcheck.audit.words import rank
+from satcheck.cli.formats.ci.problems import stops_pass
+from satcheck.cli.formats.summary import summary_line
 from satcheck.cli.output import harmless
 from satcheck.report.rows import row_of
+from satcheck.report.verdict import is_unmet
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -70,17 +74,39 @@ def render(reports: Reports) -> Iterator[str]:
 def _rows(report: Report) -> Iterator[tuple[tuple[float, ...], dict[str, Any]]]:
     """Yield what rows are sorted by, and their cells. The code of an issue is its id."""
     files = {body.id: body.file for body in report.bodies}
-    for issue in report.issues:
-        if issue.severity == "error":
-            cells = {"id": issue.code, "a": issue.body, "severity": issue.severity}
-            file = issue.file or files.get(issue.body or "")
-            yield (-1,), {**cells, "reason": issue.message, "file_a": file}
+    for cells in _of_no_pair(report, files):
+        yield (-1,), cells
     for finding in report.findings:
         has_answer = finding.distance is not None or finding.undecided is not None
         if finding.relation == "separated" and len(report.findings) > 1 and not has_answer:
             continue
         both = {"file_a": files[finding.a], "file_b": files[finding.b]}
         yield rank(finding, report.units), row_of(finding, report) | both
+
+
+def _of_no_pair(report: Report, files: Mapping[str, str]) -> Iterator[dict[str, Any]]:
+    """Yield the cells of what lets nothing pass, and of wrong or open answers about a body."""
+    is_open = report.summary.verdict == "incomplete"
+    for issue in filter(stops_pass, report.issues):
+        is_open = False
+        cells = {"id": issue.code, "a": issue.body, "severity": issue.severity}
+        file = issue.file or files.get(issue.body or "")
+        yield {**cells, "reason": issue.message, "file_a": file}
+    for answer in report.answers:
+        if answer.answer != "yes":
+            yield {
+                "id": answer.question,
+                "a": answer.body,
+                "severity": answer.severity,
+                "fails": is_unmet(answer, report.settings.fail_on),
+                "undecided": answer.question if answer.answer == "open" else None,
+                "reason": answer_message(answer),
+                "file_a": files[answer.body],
+            }
+    open_ = [each.answer == "open" for each in report.answers]
+    open_ += [each.undecided is not None for each in report.findings]
+    if is_open and not any(open_):
+        yield {"severity": "warning", "reason": summary_line(report)}
 
 
 def _with_unit(column: str, unit: str | None) -> str:

@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 
 from satcheck.audit.messages import answer_message, kind_of
 from satcheck.audit.words import counted
+from satcheck.cli.formats.ci.problems import stops_pass
 from satcheck.cli.formats.summary import config_line, summary_line
 from satcheck.cli.output import harmless, issue_line
 from satcheck.report.baseline import HELD
@@ -52,8 +53,8 @@ def _suite(name: str, report: Report) -> ElementTree.Element:
     if report.truncated is not None:
         pairs = counted(report.truncated.pairs, "more pair")
         _case(suite, name, f"{pairs}: {report.truncated.reason}")
-    for issue in report.issues:
-        if issue.severity == "error":
+    for issue in report.issues:  # those about answers have a case above
+        if stops_pass(issue):
             case = _case(suite, issue.file or name, issue.body or issue.file or issue.code)
             _say(case, "error", issue.code, issue_line(issue))
     if report.summary.verdict == "incomplete" and suite.find("testcase/error") is None:

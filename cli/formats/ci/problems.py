@@ -13,8 +13,11 @@ from urllib.parse import quote
 
 from satcheck.audit.messages import kind_of
 from satcheck.audit.words import rank
+from satcheck.cli.formats.summary import issues_to_tell
+from satcheck.cli.output import with_place
+from satcheck.report.assets import LEFT_OUT
 from satcheck.report.bodies import Place
-from satcheck.report.report import OF_ANSWERS
+from satcheck.report.report import NOTHING_TO_CHECK, OF_ANSWERS
 from satcheck.report.verdict import severity
 
 if TYPE_CHECKING:
@@ -39,7 +42,8 @@ KINDS = {
 class Problem(NamedTuple):
     """kind: a key of KINDS, or the code of an issue. places: where each body is stated, in their
     order, or where the issue is; at least one. id: that of the finding; of an issue its code and
-    its body. rank: that of the finding; an issue comes last. state: beside a baseline.
+    its body. rank: that of the finding; an issue comes last. state: beside a baseline. stops:
+    nothing passes while it stands.
     """
 
     level: Level
@@ -50,6 +54,7 @@ class Problem(NamedTuple):
     id: str
     rank: tuple[float, ...] = (inf,)
     state: BaselineState | None = None
+    stops: bool = False
 
 
 def problems(reports: Reports) -> list[Problem]:
@@ -91,7 +96,14 @@ def _of_report(report: Report) -> list[Problem]:
         if (level := severity(finding)) in ("error", "warning", "note")
     ]
     unmet = {answer.body for answer in report.answers if answer.severity == "error"}
-    return findings + [_of_issue(issue, places, unmet) for issue in report.issues]
+    return findings + [_of_issue(issue, places, unmet) for issue in issues_to_tell(report)]
+
+
+def stops_pass(issue: Issue) -> bool:
+    """Return whether nothing passes while the issue stands."""
+    is_empty = issue.code == NOTHING_TO_CHECK and issue.severity == "warning"
+    is_open = issue.state == "blocking" or issue.code in LEFT_OUT or is_empty
+    return issue.severity == "error" or is_open
 
 
 def uri(file: str) -> str:
@@ -119,6 +131,7 @@ def _of_finding(finding: Finding, level: Level, places: dict[str, Place]) -> Pro
         finding.id,
         rank(finding),
         finding.baseline_state,
+        finding.undecided is not None,
     )
 
 
@@ -131,12 +144,12 @@ def _of_issue(issue: Issue, places: dict[str, Place], unmet: Collection[str]) ->
     place = places.get(issue.body or "", first)
     if issue.file:
         place = Place(issue.file, issue.line or 1)
-    named = f"{where}: " if where and not issue.message.startswith(where) else ""
     return Problem(
         "error" if issue.code in OF_ANSWERS and issue.body in unmet else issue.severity,
         issue.code,
-        f"{named}{issue.message}",
+        with_place(issue),
         (place,),
         body,
         f"{issue.code}/{where or ''}",
+        stops=stops_pass(issue),
     )

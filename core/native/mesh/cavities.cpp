@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "exact/exact_point.hpp"
 #include "exact/predicates.hpp"
@@ -34,8 +35,13 @@ class Cavities {
     const auto [least, most] = std::minmax_element(volumes_.begin(), volumes_.end());
     if (volumes_.empty() || *least >= 0 || *most <= 0) return solids;
     bvh_ = build_bvh(mesh_);
+    std::vector<std::pair<std::size_t, std::uint32_t>> walls;  // the outermost first
     for (std::uint32_t c = 0; c < solids.size(); ++c) {
-      if (volumes_[c] < 0) solids[c] = solid_around(c).value_or(c);
+      if (volumes_[c] < 0 && around_of(c)) walls.emplace_back(around_of(c)->size(), c);
+    }
+    std::sort(walls.begin(), walls.end());
+    for (const auto& [_, wall] : walls) {
+      if (const auto solid = solid_of(wall, solids)) solids[wall] = *solid;
     }
     return solids;
   }
@@ -47,17 +53,24 @@ class Cavities {
     return signed_volume(mesh_.vertices, triangles);
   }
 
-  // The innermost component around the wall has the others around it too.
-  std::optional<std::uint32_t> solid_around(std::uint32_t wall) {
-    const Around around = around_of(wall);
+  // As brackets are matched. solids: of the walls farther out.
+  std::optional<std::uint32_t> solid_of(std::uint32_t wall, const std::vector<std::uint32_t>& solids) {
+    std::optional<std::uint32_t> at = next_around(wall);
+    while (at && volumes_[*at] < 0) at = solids[*at] == *at ? std::nullopt : next_around(solids[*at]);
+    if (at && crosses_others(mesh_, bvh_, components_, wall, members_[wall], budget_)) return std::nullopt;
+    return at;
+  }
+
+  // The innermost component around this one has the others around it too.
+  std::optional<std::uint32_t> next_around(std::uint32_t component) {
+    const Around around = around_of(component);
     if (!around) return std::nullopt;
     for (const std::uint32_t c : *around) {
       spend(budget_, kListedWork * around->size());
+      if (const Around& beyond = around_of(c); !beyond || beyond->size() + 1 != around->size()) continue;
       std::vector<std::uint32_t> others = *around;
       std::erase(others, c);
-      if (around_of(c) != others) continue;
-      if (volumes_[c] > 0 && !crosses_others(mesh_, bvh_, components_, wall, members_[wall], budget_)) return c;
-      return std::nullopt;
+      if (around_of(c) == others) return c;
     }
     return std::nullopt;
   }

@@ -16,8 +16,8 @@ bool crosses_others(const Mesh& mesh, const Bvh& bvh, const Labels& sets, std::u
                     const std::vector<std::uint32_t>& members, Budget* budget);
 
 // For each component the one that it belongs to: the solid whose cavity it bounds, else itself. A wall is closed, faces
-// inward, crosses no component, and lies within an outward one, with no other wall between them. Signs are exact; what
-// they leave open is no wall.
+// inward, crosses no component, and lies within an outward one; the walls between them are those of other solids between
+// them. Signs are exact; what they leave open is no wall.
 std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components,
                                      Budget* budget = nullptr);
 

@@ -105,7 +105,7 @@ Volumes find_solids(const Mesh& mesh, std::size_t own, const EdgeTable& edges, s
 // Measured steps of the boxes of two patches.
 constexpr std::uint64_t kBoxWork = 5;
 
-// How a shell lies to the other ones.
+// How a patch lies to the other ones.
 class Nesting {
  public:
   // own: the mesh without the fills of its holes, which come last.
@@ -120,10 +120,10 @@ class Nesting {
     }
   }
 
-  // Whether the shell is inside, or on the surface of, other solids.
+  // Whether the patch is inside, or on the surface of, other solids.
   bool is_nested(std::uint32_t patch) { return winding_around(patch, solids_) != 0 && !crosses_another(patch); }
 
-  // Whether the shell is inside others that are turned, and solid there. It then turns with them: a cavity stays one, and
+  // Whether the patch is inside others that are turned, and solid there. It then turns with them: a cavity stays one, and
   // so does a solid. turned: shells, ascending.
   bool turns_along(std::uint32_t patch, const std::vector<std::uint32_t>& turned) {
     return winding_around(patch, turned).value_or(0) < 0 && winding_around(patch, solids_).value_or(0) < 0 &&
@@ -218,26 +218,37 @@ Mesh with_fills(const Mesh& welded, const EdgeTable& edges) {
   return filled;
 }
 
-// If a shell that faces inward crosses others, winding numbers cancel, and the volume inside both would not be material. An
-// open one is turned only in this case, and only if it is not a piece of a larger surface.
-bool has_to_turn(std::uint32_t p, const Patch& patch, Nesting& nesting) {
-  if (!patch.shell || !(patch.volume < 0)) return false;
-  return patch.open ? nesting.crosses_another(p) && !nesting.ends_near_another(p) : !nesting.is_nested(p);
+// The patches of a solid, ascending.
+using Solid = std::vector<std::uint32_t>;
+
+// If a solid that faces inward crosses others, winding numbers cancel, and the volume inside both would not be material. An
+// open shell is turned only in this case, and only if it is not a piece of a larger surface.
+bool has_to_turn(const Solid& solid, const std::vector<Patch>& patches, Nesting& nesting) {
+  const Patch& first = patches[solid[0]];
+  if (!(first.volume < 0) || (first.open && !first.shell)) return false;
+  if (first.open) return nesting.crosses_another(solid[0]) && !nesting.ends_near_another(solid[0]);
+  return !std::all_of(solid.begin(), solid.end(), [&](std::uint32_t p) { return nesting.is_nested(p); });
 }
 
-// Turns shells that face inward, with all that lies within them. Returns the doubtful patches.
-std::vector<std::uint32_t> turn_shells(Mesh& mesh, std::vector<Patch>& patches, Nesting& nesting) {
-  std::vector<std::uint32_t> turned, closed, along, inward, doubtful;
-  const auto is_in = [](const std::vector<std::uint32_t>& set, std::uint32_t p) {
-    return std::binary_search(set.begin(), set.end(), p);
-  };
+// Turns solids that face inward, with all that lies within them. Returns the doubtful patches.
+std::vector<std::uint32_t> turn_solids(Mesh& mesh, std::vector<Patch>& patches, Nesting& nesting) {
+  std::map<std::uint32_t, Solid> solids;  // by group
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
-    if (!has_to_turn(p, patches[p], nesting)) continue;
-    turned.push_back(p);
-    if (!patches[p].open) closed.push_back(p);
+    if (patches[p].solid) solids[patches[p].group].push_back(p);
   }
-  for (std::uint32_t p = 0; !closed.empty() && p < patches.size(); ++p) {
-    if (patches[p].shell && !is_in(turned, p) && nesting.turns_along(p, closed)) along.push_back(p);
+  Solid turned, closed, along, inward, doubtful;
+  const auto is_in = [](const Solid& set, std::uint32_t p) { return std::binary_search(set.begin(), set.end(), p); };
+  for (const auto& [group, solid] : solids) {
+    if (!has_to_turn(solid, patches, nesting)) continue;
+    turned.insert(turned.end(), solid.begin(), solid.end());
+    if (!patches[solid[0]].open) closed.insert(closed.end(), solid.begin(), solid.end());
+  }
+  std::sort(turned.begin(), turned.end());
+  std::sort(closed.begin(), closed.end());
+  for (const auto& [group, solid] : solids) {
+    if (closed.empty() || is_in(turned, solid[0]) || (patches[solid[0]].open && !patches[solid[0]].shell)) continue;
+    const auto turns = [&](std::uint32_t p) { return nesting.turns_along(p, closed); };
+    if (std::all_of(solid.begin(), solid.end(), turns)) along.insert(along.end(), solid.begin(), solid.end());
   }
   for (const std::uint32_t p : turned) flip(mesh, patches[p]);
   for (const std::uint32_t p : along) flip(mesh, patches[p]);
@@ -274,7 +285,7 @@ Facing facing_of(const Mesh& mesh, const EdgeTable& own_edges, Budget* budget) {
   const auto add_own = [&](std::vector<std::uint32_t>& to, const Patch& patch) {
     std::copy_if(patch.triangles.begin(), patch.triangles.end(), std::back_inserter(to), [&](auto t) { return t < own; });
   };
-  for (const std::uint32_t p : turn_shells(filled, patches, nesting)) add_own(doubtful[patches[p].group], patches[p]);
+  for (const std::uint32_t p : turn_solids(filled, patches, nesting)) add_own(doubtful[patches[p].group], patches[p]);
   Facing facing;
   for (auto& [group, triangles] : doubtful) facing.doubtful.push_back(std::move(triangles));
   for (const Patch& patch : patches) {

@@ -158,6 +158,41 @@ def test_limits_hold_on_the_way(tmp_path: Path, limit, severity, undecided) -> N
         )
 
 
+@pytest.mark.parametrize(
+    ("clearance", "relation"), [(0.3, "near"), (0.5, "separated"), (0.1, "separated")]
+)
+def test_a_gap_at_its_clearance_is_judged_in_motion_as_at_rest(
+    tmp_path: Path, clearance: float, relation: str
+) -> None:
+    """The cube ends as far from the other as its clearance, up to the rounding of its pose."""
+    way, settings = 3.0 - 1.0 - clearance, Settings(clearance=clearance)
+    meshes = {"a": unit_box(), "b": unit_box(3.0)}
+    motion = Motion(("a",), Translation((way, 0.0, 0.0)))
+    (swept,) = checked(tmp_path, [motion], settings=settings, **meshes).findings
+    meshes["a"] = moved(meshes["a"], way, 0.0, 0.0)
+    (placed,) = check(scene_of(tmp_path, **meshes), settings).findings
+    assert (swept.relation, swept.severity) == (placed.relation, placed.severity)
+    assert placed.relation == relation
+
+
+@pytest.mark.parametrize(("way", "relation"), [(5.0, "penetrating"), (0.5, "indeterminate")])
+def test_what_starts_in_a_doubtful_part_hits_what_is_not_doubtful(
+    tmp_path: Path, way: float, relation: str
+) -> None:
+    """A box in a table, which is solid or a cavity, of a room that faces inward."""
+    (points, faces), (corners, sides) = box((-8, -8, -8), (8, 8, 8)), box((-2, -2, -2), (2, 2, 2))
+    inward = [face[::-1] for face in faces]
+    room = (points + corners, inward + [tuple(k + len(points) for k in side) for side in sides])
+    motion = Motion(("a",), Translation((way, 0.0, 0.0)))
+    report = checked(tmp_path, [motion], a=box((-1, -1, -1), (0, 0, 0)), b=room)
+    (finding,) = report.findings
+    assert (finding.placed_relation, finding.relation) == ("indeterminate", relation)
+    if relation == "penetrating":
+        lower, upper = finding.motion.time_of_impact
+        assert lower == 0.0
+        assert upper == pytest.approx(2 / way)
+
+
 def test_the_clearance_of_a_rule_holds_on_the_way(tmp_path: Path) -> None:
     rule = Rule(a=Selector("a"), b=Selector("b"), clearance=0.75)
     meshes = {"a": unit_box(), "b": unit_box(3.0, 1.5)}

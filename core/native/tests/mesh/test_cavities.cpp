@@ -43,6 +43,22 @@ void caves_belong_to_their_solids() {
   CHECK(several > 0);
 }
 
+// Two boxes that face outward, then two walls: the outer wall is that of the inner box, the inner one that of the outer.
+void walls_are_matched_like_brackets() {
+  const auto cube = [](double half) { return box({-half, -half, -half}, {half, half, half}); };
+  Mesh nested = cube(8);
+  append(nested, cube(6));
+  append(nested, reversed(cube(4)));
+  append(nested, reversed(cube(2)));
+  const std::vector<Mesh> parts = split_components(nested);
+  CHECK(parts.size() == 2);
+  CHECK(measure_topology(parts[0]).volume == 16 * 16 * 16 - 4 * 4 * 4);
+  CHECK(measure_topology(parts[1]).volume == 12 * 12 * 12 - 8 * 8 * 8);
+}
+
 }  // namespace
 
-UNIT(cavities) { caves_belong_to_their_solids(); }
+UNIT(cavities) {
+  caves_belong_to_their_solids();
+  walls_are_matched_like_brackets();
+}

@@ -158,6 +158,22 @@ void rooms() {
   }
 }
 
+// Two boxes with a common face are one solid, although neither surface ends there.
+void compounds() {
+  Mesh table = box({2, 2, 0.5}, {3, 4, 1.5}), room = reversed(box({0, 0, 0}, {10, 10, 4}));
+  append(table, box({3, 2, 0.5}, {4, 4, 1.5}));
+  append(room, table);
+  CHECK(facing_of(orient(room)).doubtful.size() == 1);
+  append(room, box({20, 0, 0}, {40, 20, 20}));  // the larger solid: the room turns alone
+  CHECK(facing_of(orient(room)).doubtful.size() == 1);
+  // Inside out across the face of a larger solid: nothing of either is empty.
+  Mesh across = box({2.5, 0, -5}, {40, 20, 5});
+  append(across, reversed(table));
+  const Surface solid = make_surface(orient(across), false);
+  CHECK(solid.solid);
+  for (const double x : {2.25, 2.75, 3.5, 4.5}) CHECK(winding_number(solid, {x, 3, 1.125}).value_or(0) > 0);
+}
+
 // All faces of a box lie within faces of the boxes beside it, which do not say what lies around it.
 void between_others() {
   const Aabb boxes[] = {{{0, 0, 0}, {9, 9, 9}}, {{2, 2, 2}, {4, 4, 4}}, {{4, 1, 2}, {5, 4, 4}}, {{1, 2, 2}, {2, 5, 4}},
@@ -211,6 +227,7 @@ UNIT(orient) {
   stacks();
   caves();
   rooms();
+  compounds();
   between_others();
   one_sided();
   copies();
