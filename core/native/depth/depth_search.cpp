@@ -46,16 +46,16 @@ constexpr double kSeam = 1e-5;
 constexpr std::uint64_t kScanAfter = 50'000'000, kScanShare = 8;
 constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
 
-// A way out is shortened by steps of kScanStep of its length at first, and of this at last. That takes at most so many
-// steps of work, and this share of those before.
-constexpr double kLeastPolish = 2e-4;
+// A way out is shortened by steps of kScanStep of its length at first, and of this at last, each by at least so much. That
+// takes at most so many steps of work, and this share of those before.
+constexpr double kLeastPolish = 2e-4, kLeastGain = 1e-4;
 constexpr std::uint64_t kPolishWork = 2'000'000, kPolishShare = 8;
 
 // Rounding of the norm of a point.
 constexpr double kNormError = 4 * kUnitRoundoff;
 
 // Unit vectors in all directions, towards the points of a lattice on the surface of a cube.
-std::vector<Vec3> ways() {
+std::vector<Vec3> make_ways() {
   std::vector<Vec3> directions;
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
@@ -66,6 +66,11 @@ std::vector<Vec3> ways() {
     }
   }
   return directions;
+}
+
+const std::vector<Vec3>& ways() {
+  static const std::vector<Vec3> made = make_ways();
+  return made;
 }
 
 // Whether x + y was exact. sum: x + y, rounded.
@@ -201,8 +206,8 @@ class Search {
   }
 
   // Tests the meshes at t, which gives a way out or a new set that contains t. Then tests the nearest point to the
-  // origin beyond the walls of the sets so far, as long as it may give a shorter way out.
-  void ask_meshes(Vec3 t) {
+  // origin beyond the walls of the sets so far, as long as it may give a way out that is shorter by this share.
+  void ask_meshes(Vec3 t, double gain = 0) {
     std::vector<Wall> walls;
     for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls && !budget_.is_spent();) {
       ForbiddenSet::Exit exit = sets_.deepest_exit(t);
@@ -217,7 +222,7 @@ class Search {
       }
       walls.push_back({exit.normal, dot(exit.normal, t) + exit.depth + kBeyond * result_.upper});
       const std::optional<Vec3> next = nearest_beyond(walls);
-      if (!next || norm(*next) >= result_.upper) return;
+      if (!next || norm(*next) >= result_.upper * (1 - gain)) return;
       t = in_plane(*next);
     }
   }
@@ -274,13 +279,16 @@ class Search {
   // Shortens the way out by steps in all directions: the interval may be narrow before it is the shortest one near it.
   void polish() {
     const std::uint64_t end = budget_.spent() + budget_.spent() / kPolishShare + kPolishWork;
+    const auto is_worth_a_test = [&](Vec3 t) {
+      return norm(t) > result_.lower && norm(t) < result_.upper * (1 - kLeastGain) && !sets_.holds(t);
+    };
     for (double step = kScanStep; result_.has_way_out && step > kLeastPolish; step *= 0.5) {
       if (result_.lower >= result_.upper * (1 - kLeastPolish)) return;
-      ask_meshes(result_.way_out * (1 - step));
+      ask_meshes(result_.way_out * (1 - step), kLeastGain);
       for (const Vec3 way : ways()) {
         const Vec3 t = in_plane(result_.way_out + way * (step * result_.upper));
         if (budget_.is_spent() || budget_.spent() > end) return;
-        if (norm(t) < result_.upper && !sets_.holds(t) && relation_at(t).is_free()) take(t);
+        if (is_worth_a_test(t) && relation_at(t).is_free()) take(t);
       }
     }
   }
