@@ -40,10 +40,10 @@ constexpr double kSnap = 1e-6;
 // Boxes smaller than this share of the known way out count as lying on a seam of two sets if no set contains them.
 constexpr double kSeam = 1e-5;
 
-// After so much work, or 1 / kScanShare of what may be spent if that is less, spheres from 1 / kSmallestSphere of the known
-// way out on are scanned for a shorter one. A budget above the default one scans as late as that, and so never ends with a
-// longer way out.
-constexpr std::uint64_t kScanAfter = 50'000'000, kScanShare = 8;
+// After so much work, spheres from 1 / kSmallestSphere of the known way out on are scanned for a shorter one, for this share
+// of the work that follows. No step depends on the work that may be spent, so more of it only adds steps: it never gives a
+// longer way out, nor a wider interval.
+constexpr std::uint64_t kScanAfter = 4'000'000, kScanShare = 4;
 constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
 
 // A way out is shortened by steps of kScanStep of its length at first, and of this at last, each by at least so much. That
@@ -94,6 +94,7 @@ class Search {
     push({{0, 0, 0}, in_plane(Vec3{1, 1, 1} * root_half(result_.upper)), {}, 0, record_.add_root()});
     double open_from = result_.upper;
     while (!open_.empty()) {
+      if (is_scan_due()) scan();
       reached_ = open_from = -open_.key();
       TranslationBox box = open_.pop();
       if (proven() >= enough()) break;
@@ -104,11 +105,6 @@ class Search {
       if (budget_.is_spent()) {
         result_.stop = SearchStop::work_spent;
         break;
-      }
-      if (!scanned_ && budget_.spent() >= std::min(kScanAfter, goal_.work / kScanShare)) {
-        scan_spheres(std::fmax(reached_, result_.upper / kSmallestSphere));
-        push(std::move(box));
-        continue;
       }
       ++result_.boxes;
       poll();
@@ -237,18 +233,26 @@ class Search {
     return prove_overlap(a_, moved_.at(t, &budget_), b_, t, relation, overlaps, goal_.prove, budget_);
   }
 
-  // Searches a way out on spheres, the smallest first. Longer translations need not be searched then.
-  void scan_spheres(double radius) {
-    scanned_ = true;
-    for (; radius < result_.upper; radius *= kSphereRatio) {
-      for (const Vec3 way : ways()) {
-        if (!(in_plane(way) == way)) continue;
-        if (budget_.is_spent()) return;
-        const Vec3 t = way * radius;
-        if (!sets_.holds(t) && relation_at(t).is_free()) take(t);
-      }
+  bool is_scan_due() const {
+    const std::uint64_t spent = budget_.spent();
+    return !scanned_ && spent >= kScanAfter && scan_work_ * kScanShare <= spent - kScanAfter && !budget_.is_spent();
+  }
+
+  // Tests the next place on spheres, the smallest first. Longer translations need not be searched once one is free.
+  void scan() {
+    const std::uint64_t before = budget_.spent();
+    if (sphere_ == 0) sphere_ = std::fmax(-open_.key(), result_.upper / kSmallestSphere);
+    const Vec3 way = ways()[scanned_ways_];
+    if (in_plane(way) == way && !sets_.holds(way * sphere_)) {
+      if (relation_at(way * sphere_).is_free()) take(way * sphere_);
     }
-    if (result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
+    if (++scanned_ways_ == ways().size()) {
+      scanned_ways_ = 0;
+      sphere_ *= kSphereRatio;
+    }
+    scanned_ = sphere_ >= result_.upper;
+    if (scanned_ && result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
+    scan_work_ += budget_.spent() - before;
   }
 
   // If forbidden sets only touch, A may fit between the parts of B without clearance. t is shifted by less than the
@@ -335,6 +339,9 @@ class Search {
   DepthRecord record_;
   std::vector<RegionPair> regions_;  // of each set, where the search writes down its proof
   BestFirst<TranslationBox> open_;  // those nearest to the origin first
+  double sphere_ = 0;  // radius of the one that is scanned; 0: none yet
+  std::size_t scanned_ways_ = 0;
+  std::uint64_t scan_work_ = 0;
   bool scanned_ = false;
 };
 
