@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <mutex>
 #include <thread>
 
 #include "base/parallel.hpp"
@@ -59,8 +60,25 @@ void make_both(PlacedGeometry& a, PlacedGeometry& b, Make make) {
   parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? a : b); });
 }
 
-void make_hull_shapes(PlacedGeometry& a, PlacedGeometry& b) {
-  make_both(a, b, [](PlacedGeometry& body) { body.hull_shape(); });
+// budget: is polled, and pays nothing. A signal is heard in one thread alone; what its poll throws ends the other one, too.
+void make_hull_shapes(PlacedGeometry& a, PlacedGeometry& b, const Budget& budget) {
+  if (!is_large(a) && !is_large(b)) return make_both(a, b, [](PlacedGeometry& body) { body.hull_shape(); });
+  std::mutex mutex;
+  std::exception_ptr ended;
+  const Poll poll = [&](const SearchState& state) {
+    const std::lock_guard lock(mutex);
+    if (ended) std::rethrow_exception(ended);
+    try {
+      budget.tell_again(state.work);
+    } catch (...) {
+      ended = std::current_exception();
+      throw;
+    }
+  };
+  make_both(a, b, [&](PlacedGeometry& body) {
+    Budget polling = Budget::that_stops(kNoEnd, poll);
+    body.hull_shape(&polling);
+  });
 }
 
 // Whether the hulls serve one pair only, and cost more than scans of the vertices.
@@ -175,7 +193,7 @@ class Climber {
   }
 
   bool hulls_are_apart() {
-    make_hull_shapes(*request_.a, *request_.b);
+    make_hull_shapes(*request_.a, *request_.b, budget_);
     climb_.hulls = ask_hulls(Query::overlap);
     if (climb_.hulls->outcome != Outcome::separated) return false;
     climb_.hulls = ask_hulls(Query::distance);
@@ -310,7 +328,7 @@ PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, const Bu
   if (method == MethodChoice::automatic && spares_hulls(a, b, alone)) {
     if (const auto depth = depth_of_hulls(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b), &budget)) return *depth;
   }
-  make_hull_shapes(a, b);
+  make_hull_shapes(a, b, budget);
   return check_pair(*a.hull_shape(), {}, *b.hull_shape(), {}, Query::depth, method);
 }
 
