@@ -23,6 +23,9 @@ struct Seam {
   std::uint32_t first, second;  // places in the list
 };
 
+// The boxes of more patches would be a third of the memory of a search.
+constexpr std::size_t kMostBoxes = 65536;
+
 class Merging {
  public:
   Merging(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, double flatness)
@@ -54,6 +57,9 @@ class Merging {
       first += sizes[i];
     }
     list_triangles(result);
+    if (result.patches.size() <= kMostBoxes) {
+      for (const Patch& patch : result.patches) result.boxes.push_back(result.box_of(patch));
+    }
     return result;
   }
 
@@ -169,7 +175,7 @@ class Merging {
 
 }  // namespace
 
-Aabb ConvexPatches::box(const Patch& patch) const {
+Aabb ConvexPatches::box_of(const Patch& patch) const {
   Aabb box;
   for (std::uint32_t i = patch.first; i < patch.first + patch.count; ++i) box.include(outlines[i]);
   return box.widened(patch.slack);
