@@ -40,10 +40,10 @@ constexpr double kSnap = 1e-6;
 // Boxes smaller than this share of the known way out count as lying on a seam of two sets if no set contains them.
 constexpr double kSeam = 1e-5;
 
-// After so much work, spheres from 1 / kSmallestSphere of the known way out on are scanned for a shorter one, for this share
+// After so much work, spheres from 1 / kSmallestSphere of the known way out on are scanned for a shorter one, by this share
 // of the work that follows. No step depends on the work that may be spent, so more of it only adds steps: it never gives a
 // longer way out, nor a wider interval.
-constexpr std::uint64_t kScanAfter = 4'000'000, kScanShare = 4;
+constexpr std::uint64_t kScanAfter = 4'000'000, kScanShare = 2;
 constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
 
 // A way out is shortened by steps of kScanStep of its length at first, and of this at last, each by at least so much. That
@@ -94,7 +94,7 @@ class Search {
     push({{0, 0, 0}, in_plane(Vec3{1, 1, 1} * root_half(result_.upper)), {}, 0, record_.add_root()});
     double open_from = result_.upper;
     while (!open_.empty()) {
-      if (is_scan_due()) scan();
+      while (is_scan_due()) scan();
       reached_ = open_from = -open_.key();
       TranslationBox box = open_.pop();
       if (proven() >= enough()) break;
