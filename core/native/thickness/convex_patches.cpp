@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "base/edge_table.hpp"
@@ -29,8 +30,7 @@ constexpr std::size_t kMostBoxes = 65536;
 class Merging {
  public:
   Merging(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, double flatness)
-      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), merged_(triangles.size()),
-        normals_(triangles.size()) {
+      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), normals_(triangles.size()) {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       const auto c = corners(mesh, triangles[i]);
       const Vec3 normal = rounded_normal(c[0], c[1], c[2]);
@@ -68,7 +68,8 @@ class Merging {
 
   // Vertices, of a set at its representative.
   Outline outline(std::uint32_t i) const {
-    return merged_[i].empty() ? Outline(mesh_.triangles[triangles_[i]]) : Outline(merged_[i]);
+    const auto merged = merged_.find(i);
+    return merged == merged_.end() ? Outline(mesh_.triangles[triangles_[i]]) : Outline(merged->second);
   }
 
   std::vector<Seam> flat_seams() const {
@@ -116,7 +117,7 @@ class Merging {
     if (!is_convex_at(joined, kept, seam.from) || !is_convex_at(joined, kept, seam.to)) return;
     sets_.unite(p, q);
     merged_[kept] = std::move(joined);
-    merged_[std::max(p, q)].clear();
+    merged_.erase(std::max(p, q));
   }
 
   // Empty where they share more than the seam, or have too many corners.
@@ -169,7 +170,7 @@ class Merging {
   const std::vector<std::uint32_t>& triangles_;
   double flatness_;
   DisjointSets sets_;
-  std::vector<std::vector<std::uint32_t>> merged_;  // outlines of sets of several triangles, at their representatives
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> merged_;  // outlines of sets of several triangles, at their representatives
   std::vector<Vec3> normals_;                       // of each triangle
 };
 

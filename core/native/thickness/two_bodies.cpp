@@ -88,6 +88,7 @@ void TwoBodies::make_patches(const Aabb& box, double reach, double flatness) {
       return true;
     });
     std::vector<std::uint32_t> triangles;
+    triangles.reserve(static_cast<std::size_t>(std::count(is_near.begin(), is_near.end(), true)));
     for (std::uint32_t t = 0; t < is_near.size(); ++t) {
       if (is_near[t]) triangles.push_back(t);
     }
