@@ -55,21 +55,15 @@ constexpr std::uint64_t kPolishWork = 2'000'000, kPolishShare = 8;
 constexpr double kNormError = 4 * kUnitRoundoff;
 
 // Unit vectors in all directions, towards the points of a lattice on the surface of a cube.
-std::vector<Vec3> make_ways() {
-  std::vector<Vec3> directions;
-  for (int x = -2; x <= 2; ++x) {
-    for (int y = -2; y <= 2; ++y) {
-      for (int z = -2; z <= 2; ++z) {
-        const Vec3 v{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-        if (max_abs(v) == 2) directions.push_back(v * (1 / norm(v)));
-      }
-    }
-  }
-  return directions;
-}
-
 const std::vector<Vec3>& ways() {
-  static const std::vector<Vec3> made = make_ways();
+  static const std::vector<Vec3> made = [] {
+    std::vector<Vec3> directions;
+    for (int k = 0; k < 125; ++k) {
+      const Vec3 v{k / 25 - 2.0, k / 5 % 5 - 2.0, k % 5 - 2.0};
+      if (max_abs(v) == 2) directions.push_back(v * (1 / norm(v)));
+    }
+    return directions;
+  }();
   return made;
 }
 
@@ -85,7 +79,7 @@ class Search {
       : a_(a), b_(b), moved_(a), goal_(goal), budget_(goal.work, goal.poll), sets_(goal.across, budget_) {
     result_.upper = goal.upper;
     least_beyond_ = kLeastBeyond * larger(a.bvh.nodes[0].box.largest_coordinate(), b.bvh.nodes[0].box.largest_coordinate());
-    scanned_ = goal.prove;
+    if (goal.prove) sphere_ = INFINITY;
   }
   Search(const Search&) = delete;  // the sets refer to the budget
   Search& operator=(const Search&) = delete;
@@ -237,7 +231,7 @@ class Search {
 
   bool is_scan_due() const {
     const std::uint64_t spent = budget_.spent();
-    return !scanned_ && spent >= kScanAfter && scan_work_ * kScanShare <= spent - kScanAfter && !budget_.is_spent();
+    return sphere_ < result_.upper && spent >= kScanAfter && scan_work_ * kScanShare <= spent - kScanAfter && !budget_.is_spent();
   }
 
   // Tests the next place on spheres, the smallest first. Longer translations need not be searched once one is free.
@@ -245,15 +239,13 @@ class Search {
     const std::uint64_t before = budget_.spent();
     if (sphere_ == 0) sphere_ = std::fmax(-open_.key(), result_.upper / kSmallestSphere);
     const Vec3 way = ways()[scanned_ways_];
-    if (in_plane(way) == way && !sets_.holds(way * sphere_)) {
-      if (relation_at(way * sphere_).is_free()) take(way * sphere_);
-    }
+    const Vec3 t = way * sphere_;
+    if (in_plane(way) == way && !sets_.holds(t) && relation_at(t).is_free()) take(t);
     if (++scanned_ways_ == ways().size()) {
       scanned_ways_ = 0;
       sphere_ *= kSphereRatio;
     }
-    scanned_ = sphere_ >= result_.upper;
-    if (scanned_ && result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
+    if (sphere_ >= result_.upper && result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
     scan_work_ += budget_.spent() - before;
   }
 
@@ -285,16 +277,14 @@ class Search {
   // Shortens the way out by steps in all directions: the interval may be narrow before it is the shortest one near it.
   void polish() {
     const std::uint64_t end = budget_.spent() + budget_.spent() / kPolishShare + kPolishWork;
-    const auto is_worth_a_test = [&](Vec3 t) {
-      return norm(t) > result_.lower && norm(t) < result_.upper * (1 - kLeastGain) && !sets_.holds(t);
-    };
     for (double step = kScanStep; result_.has_way_out && step > kLeastPolish; step *= 0.5) {
       if (result_.lower >= result_.upper * (1 - kLeastPolish)) return;
       ask_meshes(result_.way_out * (1 - step), kLeastGain);
       for (const Vec3 way : ways()) {
         const Vec3 t = in_plane(result_.way_out + way * (step * result_.upper));
         if (budget_.is_spent() || budget_.spent() > end) return;
-        if (is_worth_a_test(t) && relation_at(t).is_free()) take(t);
+        if (norm(t) <= result_.lower || norm(t) >= result_.upper * (1 - kLeastGain)) continue;
+        if (!sets_.holds(t) && relation_at(t).is_free()) take(t);
       }
     }
   }
@@ -342,10 +332,9 @@ class Search {
   DepthRecord record_;
   std::vector<RegionPair> regions_;  // of each set, where the search writes down its proof
   BestFirst<TranslationBox> open_;  // those nearest to the origin first
-  double sphere_ = 0;  // radius of the one that is scanned; 0: none yet
+  double sphere_ = 0;  // radius of the one that is scanned; 0: none yet; from `upper` on: all are
   std::size_t scanned_ways_ = 0;
   std::uint64_t scan_work_ = 0;
-  bool scanned_ = false;
 };
 
 // An order that does not depend on which mesh is called A: the smaller mesh is moved.

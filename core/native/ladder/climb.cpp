@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <mutex>
 #include <thread>
 
 #include "base/parallel.hpp"
@@ -60,25 +59,10 @@ void make_both(PlacedGeometry& a, PlacedGeometry& b, Make make) {
   parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? a : b); });
 }
 
-// budget: is polled, and pays nothing. A signal is heard in one thread alone; what its poll throws ends the other one, too.
+// In this thread, which hears signals. budget: is polled, and pays nothing.
 void make_hull_shapes(PlacedGeometry& a, PlacedGeometry& b, const Budget& budget) {
-  if (!is_large(a) && !is_large(b)) return make_both(a, b, [](PlacedGeometry& body) { body.hull_shape(); });
-  std::mutex mutex;
-  std::exception_ptr ended;
-  const Poll poll = [&](const SearchState& state) {
-    const std::lock_guard lock(mutex);
-    if (ended) std::rethrow_exception(ended);
-    try {
-      budget.tell_again(state.work);
-    } catch (...) {
-      ended = std::current_exception();
-      throw;
-    }
-  };
-  make_both(a, b, [&](PlacedGeometry& body) {
-    Budget polling = Budget::that_stops(kNoEnd, poll);
-    body.hull_shape(&polling);
-  });
+  Budget polling = Budget::that_stops(kNoEnd, [&](const SearchState& state) { budget.tell_again(state.work); });
+  for (PlacedGeometry* body : {&a, &b}) body->hull_shape(&polling);
 }
 
 // Whether the hulls serve one pair only, and cost more than scans of the vertices.

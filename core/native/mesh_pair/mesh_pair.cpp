@@ -70,13 +70,17 @@ MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair c
   return make_relation(Relation::penetrating, Evidence{crossing.a, crossing.b, point});
 }
 
+MeshRelation touching_first(const Surface& a, const Surface& b, const SurfaceContacts& contacts) {
+  const auto [ta, tb] = contacts.first();
+  return make_relation(Relation::touching, Evidence{ta, tb, contact_point(corners(a.mesh, ta), corners(b.mesh, tb))});
+}
+
 MeshRelation judged_relation(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
                              Budget* budget) {
   MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted, budget));
   if (result.relation == Relation::separated && contacts.any()) {
     // Triangles without area bound no volume, but they are part of the surface.
-    const auto [ta, tb] = contacts.first();
-    result = make_relation(Relation::touching, Evidence{ta, tb, contact_point(corners(a.mesh, ta), corners(b.mesh, tb))});
+    result = touching_first(a, b, contacts);
   }
   result.judged = contacts.contacts.size();
   for (const auto& region : contacts.common) result.judged += region.size();
@@ -161,26 +165,17 @@ bool boxes_only_touch(const Surface& a, const Surface& b) {
          q.min.z >= p.max.z;
 }
 
-// Of two closed surfaces whose boxes have no common interior: that nothing crosses needs no proof from each pair of
-// triangles that meet, of which two flush fans of slivers have millions.
-MeshRelation relation_of_apart(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
-  if (wanted == Wanted::overlap) return make_relation(Relation::separated, {});
-  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop_at_many, budget, kManyContacts);
-  if (contacts.contacts.size() <= kManyContacts) return with_counts(judged_relation(a, b, contacts, wanted, budget), contacts);
-  const auto [ta, tb] = contacts.first();
-  const Vec3 point = contact_point(corners(a.mesh, ta), corners(b.mesh, tb));
-  return with_counts(make_relation(Relation::touching, Evidence{ta, tb, point}), contacts);
-}
-
 MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
   if (same_geometry(a, b)) {
     const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
   if (const auto in_plane = prism_relation(a, b)) return *in_plane;
-  const bool closed = a.solid && b.solid;
-  if (closed && boxes_only_touch(a, b)) return relation_of_apart(a, b, wanted, budget);
-  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop, budget, kManyContacts);
+  const bool closed = a.solid && b.solid, apart = closed && boxes_only_touch(a, b);
+  if (apart && wanted == Wanted::overlap) return make_relation(Relation::separated, {});
+  const SurfaceContacts contacts = find_contacts(a, b, apart ? AtCrossing::stop_at_many : AtCrossing::stop, budget, kManyContacts);
+  // Solids whose boxes are apart have no common interior. Two flush fans of slivers meet in millions of pairs.
+  if (apart && contacts.contacts.size() > kManyContacts) return with_counts(touching_first(a, b, contacts), contacts);
   const auto relation_of = closed ? relation_of_closed : relation_of_open;
   return with_counts(relation_of(a, b, contacts, wanted, budget), contacts);
 }
