@@ -28,9 +28,9 @@ constexpr std::uint64_t kBoxWork = 300, kVertexWork = 10;
 // Steps out of one set after another until the meshes are free.
 constexpr int kStepsOut = 8;
 constexpr std::size_t kMostWalls = 24;
-// A step goes this far beyond the boundary of a set, so that rounding does not leave it inside: a share of the length of
-// that boundary, but at least this share of the largest coordinate, and at most the first share of the known way out.
-constexpr double kBeyond = 1e-10, kLeastBeyond = 1e-12;
+// A step goes this far beyond the boundary of a set, so that rounding does not leave it inside. A share of the known
+// way out.
+constexpr double kBeyond = 1e-10;
 // From this many sets on, each is made where the bodies overlap the most.
 constexpr std::size_t kManySets = 40;
 // A new set on a seam is kept if the point is this many times deeper in it than in the others.
@@ -43,8 +43,8 @@ constexpr double kSeam = 1e-5;
 // After so much work, spheres from 1 / kSmallestSphere of the known way out on are scanned for a shorter one, by this share
 // of the work that follows. No step depends on the work that may be spent, so more of it only adds steps: it never gives a
 // longer way out, nor a wider interval.
-constexpr std::uint64_t kScanAfter = 4'000'000, kScanShare = 2;
-constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.08;
+constexpr std::uint64_t kScanAfter = 16'000'000, kScanShare = 2;
+constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
 
 // A way out is shortened by steps of kScanStep of its length at first, and of this at last, each by at least so much. That
 // takes at most so many steps of work, and this share of those before.
@@ -78,7 +78,6 @@ class Search {
   Search(const Surface& a, const Surface& b, const DepthGoal& goal)
       : a_(a), b_(b), moved_(a), goal_(goal), budget_(goal.work, goal.poll), sets_(goal.across, budget_) {
     result_.upper = goal.upper;
-    least_beyond_ = kLeastBeyond * larger(a.bvh.nodes[0].box.largest_coordinate(), b.bvh.nodes[0].box.largest_coordinate());
     if (goal.prove) sphere_ = INFINITY;
   }
   Search(const Search&) = delete;  // the sets refer to the budget
@@ -211,8 +210,7 @@ class Search {
         exit = proof.set.exit(t);
         add(std::move(proof));
       }
-      const double boundary = dot(exit.normal, t) + exit.depth;
-      walls.push_back({exit.normal, boundary + std::fmin(kBeyond * result_.upper, std::fmax(kBeyond * boundary, least_beyond_))});
+      walls.push_back({exit.normal, dot(exit.normal, t) + exit.depth + kBeyond * result_.upper});
       const std::optional<Vec3> next = nearest_beyond(walls);
       if (!next || norm(*next) >= result_.upper * (1 - gain)) return;
       t = in_plane(*next);
@@ -325,7 +323,6 @@ class Search {
   DepthGoal goal_;
   Budget budget_;
   DepthInterval result_;
-  double least_beyond_;
   double covered_to_ = INFINITY;  // the dropped boxes contain no shorter way out
   double reached_ = 0;            // and the open ones none shorter than this
   ForbiddenUnion sets_;
