@@ -48,6 +48,15 @@ ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone
   return {a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance, alone, method, steps};
 }
 
+// A method that makes a hull.
+template <class Body, class Made>
+auto interruptible(Made (Body::*make)(Budget*)) {
+  return [make](Body& body) {
+    Budget budget = Budget::that_stops(kNoEnd, interrupting());
+    return (body.*make)(&budget);
+  };
+}
+
 void bind_geometry(nb::module_& m) {
   nb::class_<Geometry>(m, "Geometry", R"(The data that all bodies with one mesh share, in file coordinates, made on demand. solid: the mesh is closed and
 consistently wound; if that is false, surfaces raise ValueError. plain: the mesh of an Inspection whose topology is a
@@ -61,8 +70,8 @@ plain solid, which is not proven again. sheets: open parts of the mesh have no i
 world coordinate, so the body in the world is the hull of its world vertices.)")
       .def_prop_ro("known_convex", &Geometry::known_convex, ReleaseGil(), "None until a pair needs it.")
       .def("surface", &Geometry::surface, ReleaseGil())
-      .def("hull", &Geometry::hull, ReleaseGil())
-      .def("hull_shape", &Geometry::hull_shape, ReleaseGil())
+      .def("hull", interruptible(&Geometry::hull), ReleaseGil())
+      .def("hull_shape", interruptible(&Geometry::hull_shape), ReleaseGil())
       .def_prop_ro("hierarchies", &Geometry::hierarchies, "Number of trees built for these bodies.")
       .def_prop_ro("refits", &Geometry::refits, "Number of trees fitted again to placed vertices.");
   nb::class_<PlacedGeometry>(m, "PlacedGeometry", R"(A body in the world: its mesh, and data that are made on demand.
@@ -80,8 +89,8 @@ precision of its coordinates, world units.)")
            "shared"_a, "transform"_a.none(), "bounds"_a.none(), "resolution"_a)
       .def_prop_ro("mesh", &PlacedGeometry::mesh, ReleaseGil(), "The mesh in the world; each coordinate rounded once. Raises what Mesh.transformed raises.")
       .def("surface", &PlacedGeometry::surface, ReleaseGil())
-      .def("hull", &PlacedGeometry::hull, ReleaseGil(), "The hull of all vertices, with its faces.")
-      .def("hull_shape", &PlacedGeometry::hull_shape, ReleaseGil(), "The hull as a shape, usually without faces.")
+      .def("hull", interruptible(&PlacedGeometry::hull), ReleaseGil(), "The hull of all vertices, with its faces.")
+      .def("hull_shape", interruptible(&PlacedGeometry::hull_shape), ReleaseGil(), "The hull as a shape, usually without faces.")
       .def("release", &PlacedGeometry::release, ReleaseGil(), "Releases the data; they are made again on demand.");
 }
 

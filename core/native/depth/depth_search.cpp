@@ -40,32 +40,31 @@ constexpr double kSnap = 1e-6;
 // Boxes smaller than this share of the known way out count as lying on a seam of two sets if no set contains them.
 constexpr double kSeam = 1e-5;
 
-// After so much work, or 1 / kScanShare of what may be spent if that is less, spheres from 1 / kSmallestSphere of the known
-// way out on are scanned for a shorter one. A budget above the default one scans as late as that, and so never ends with a
-// longer way out.
-constexpr std::uint64_t kScanAfter = 50'000'000, kScanShare = 8;
+// After so much work, spheres from 1 / kSmallestSphere of the known way out on are scanned for a shorter one, by this share
+// of the work that follows. No step depends on the work that may be spent, so more of it only adds steps: it never gives a
+// longer way out, nor a wider interval.
+constexpr std::uint64_t kScanAfter = 16'000'000, kScanShare = 2;
 constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
 
-// A way out is shortened by steps of kScanStep of its length at first, and of this at last. That takes at most so many
-// steps of work, and this share of those before.
-constexpr double kLeastPolish = 2e-4;
+// A way out is shortened by steps of kScanStep of its length at first, and of this at last, each by at least so much. That
+// takes at most so many steps of work, and this share of those before.
+constexpr double kLeastPolish = 2e-4, kLeastGain = 1e-4;
 constexpr std::uint64_t kPolishWork = 2'000'000, kPolishShare = 8;
 
 // Rounding of the norm of a point.
 constexpr double kNormError = 4 * kUnitRoundoff;
 
 // Unit vectors in all directions, towards the points of a lattice on the surface of a cube.
-std::vector<Vec3> ways() {
-  std::vector<Vec3> directions;
-  for (int x = -2; x <= 2; ++x) {
-    for (int y = -2; y <= 2; ++y) {
-      for (int z = -2; z <= 2; ++z) {
-        const Vec3 v{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-        if (max_abs(v) == 2) directions.push_back(v * (1 / norm(v)));
-      }
+const std::vector<Vec3>& ways() {
+  static const std::vector<Vec3> made = [] {
+    std::vector<Vec3> directions;
+    for (int k = 0; k < 125; ++k) {
+      const Vec3 v{k / 25 - 2.0, k / 5 % 5 - 2.0, k % 5 - 2.0};
+      if (max_abs(v) == 2) directions.push_back(v * (1 / norm(v)));
     }
-  }
-  return directions;
+    return directions;
+  }();
+  return made;
 }
 
 // Whether x + y was exact. sum: x + y, rounded.
@@ -79,7 +78,7 @@ class Search {
   Search(const Surface& a, const Surface& b, const DepthGoal& goal)
       : a_(a), b_(b), moved_(a), goal_(goal), budget_(goal.work, goal.poll), sets_(goal.across, budget_) {
     result_.upper = goal.upper;
-    scanned_ = goal.prove;
+    if (goal.prove) sphere_ = INFINITY;
   }
   Search(const Search&) = delete;  // the sets refer to the budget
   Search& operator=(const Search&) = delete;
@@ -89,6 +88,7 @@ class Search {
     push({{0, 0, 0}, in_plane(Vec3{1, 1, 1} * root_half(result_.upper)), {}, 0, record_.add_root()});
     double open_from = result_.upper;
     while (!open_.empty()) {
+      while (is_scan_due()) scan();
       reached_ = open_from = -open_.key();
       TranslationBox box = open_.pop();
       if (proven() >= enough()) break;
@@ -99,11 +99,6 @@ class Search {
       if (budget_.is_spent()) {
         result_.stop = SearchStop::work_spent;
         break;
-      }
-      if (!scanned_ && budget_.spent() >= std::min(kScanAfter, goal_.work / kScanShare)) {
-        scan_spheres(std::fmax(reached_, result_.upper / kSmallestSphere));
-        push(std::move(box));
-        continue;
       }
       ++result_.boxes;
       poll();
@@ -201,8 +196,8 @@ class Search {
   }
 
   // Tests the meshes at t, which gives a way out or a new set that contains t. Then tests the nearest point to the
-  // origin beyond the walls of the sets so far, as long as it may give a shorter way out.
-  void ask_meshes(Vec3 t) {
+  // origin beyond the walls of the sets so far, as long as it may give a way out that is shorter by this share.
+  void ask_meshes(Vec3 t, double gain = 0) {
     std::vector<Wall> walls;
     for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls && !budget_.is_spent();) {
       ForbiddenSet::Exit exit = sets_.deepest_exit(t);
@@ -217,7 +212,7 @@ class Search {
       }
       walls.push_back({exit.normal, dot(exit.normal, t) + exit.depth + kBeyond * result_.upper});
       const std::optional<Vec3> next = nearest_beyond(walls);
-      if (!next || norm(*next) >= result_.upper) return;
+      if (!next || norm(*next) >= result_.upper * (1 - gain)) return;
       t = in_plane(*next);
     }
   }
@@ -232,18 +227,24 @@ class Search {
     return prove_overlap(a_, moved_.at(t, &budget_), b_, t, relation, overlaps, goal_.prove, budget_);
   }
 
-  // Searches a way out on spheres, the smallest first. Longer translations need not be searched then.
-  void scan_spheres(double radius) {
-    scanned_ = true;
-    for (; radius < result_.upper; radius *= kSphereRatio) {
-      for (const Vec3 way : ways()) {
-        if (!(in_plane(way) == way)) continue;
-        if (budget_.is_spent()) return;
-        const Vec3 t = way * radius;
-        if (!sets_.holds(t) && relation_at(t).is_free()) take(t);
-      }
+  bool is_scan_due() const {
+    const std::uint64_t spent = budget_.spent();
+    return sphere_ < result_.upper && spent >= kScanAfter && scan_work_ * kScanShare <= spent - kScanAfter && !budget_.is_spent();
+  }
+
+  // Tests the next place on spheres, the smallest first. Longer translations need not be searched once one is free.
+  void scan() {
+    const std::uint64_t before = budget_.spent();
+    if (sphere_ == 0) sphere_ = std::fmax(-open_.key(), result_.upper / kSmallestSphere);
+    const Vec3 way = ways()[scanned_ways_];
+    const Vec3 t = way * sphere_;
+    if (in_plane(way) == way && !sets_.holds(t) && relation_at(t).is_free()) take(t);
+    if (++scanned_ways_ == ways().size()) {
+      scanned_ways_ = 0;
+      sphere_ *= kSphereRatio;
     }
-    if (result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
+    if (sphere_ >= result_.upper && result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
+    scan_work_ += budget_.spent() - before;
   }
 
   // If forbidden sets only touch, A may fit between the parts of B without clearance. t is shifted by less than the
@@ -276,11 +277,12 @@ class Search {
     const std::uint64_t end = budget_.spent() + budget_.spent() / kPolishShare + kPolishWork;
     for (double step = kScanStep; result_.has_way_out && step > kLeastPolish; step *= 0.5) {
       if (result_.lower >= result_.upper * (1 - kLeastPolish)) return;
-      ask_meshes(result_.way_out * (1 - step));
+      ask_meshes(result_.way_out * (1 - step), kLeastGain);
       for (const Vec3 way : ways()) {
         const Vec3 t = in_plane(result_.way_out + way * (step * result_.upper));
         if (budget_.is_spent() || budget_.spent() > end) return;
-        if (norm(t) < result_.upper && !sets_.holds(t) && relation_at(t).is_free()) take(t);
+        if (norm(t) <= result_.lower || norm(t) >= result_.upper * (1 - kLeastGain)) continue;
+        if (!sets_.holds(t) && relation_at(t).is_free()) take(t);
       }
     }
   }
@@ -327,7 +329,9 @@ class Search {
   DepthRecord record_;
   std::vector<RegionPair> regions_;  // of each set, where the search writes down its proof
   BestFirst<TranslationBox> open_;  // those nearest to the origin first
-  bool scanned_ = false;
+  double sphere_ = 0;  // radius of the one that is scanned; 0: none yet; from `upper` on: all are
+  std::size_t scanned_ways_ = 0;
+  std::uint64_t scan_work_ = 0;
 };
 
 // An order that does not depend on which mesh is called A: the smaller mesh is moved.

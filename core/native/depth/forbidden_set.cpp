@@ -40,6 +40,13 @@ ForbiddenSet::Exit ForbiddenSet::exit(Vec3 t) const {
   return least;
 }
 
+bool ForbiddenSet::holds(Vec3 t) const {
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    if (!(offset[k] - dot(normal[k], t) > 0)) return false;
+  }
+  return !empty();
+}
+
 ForbiddenSet::Reach ForbiddenSet::reach(Vec3 c, Vec3 h) const {
   if (empty()) return {-INFINITY, false};
   Reach result{INFINITY, true};

@@ -33,6 +33,7 @@ struct ForbiddenSet {
     Vec3 normal;
   };
   Exit exit(Vec3 t) const;
+  bool holds(Vec3 t) const;  // whether that depth is positive
 
   // length: the set contains all translations in the box that are shorter than this, because planes at least this far
   // from the origin cut off only longer ones. Infinite if the set contains the whole box, -infinite if they do not

@@ -152,7 +152,8 @@ Vec3 ForbiddenUnion::on_facets(const TranslationBox& box) const {
 }
 
 bool ForbiddenUnion::holds(Vec3 t) const {
-  return std::any_of(sets_.begin(), sets_.end(), [&](const auto& set) { return set->exit(t).depth > 0; });
+  const Aabb point{t, t};
+  return std::any_of(sets_.begin(), sets_.end(), [&](const auto& set) { return meet(set->box, point) && set->holds(t); });
 }
 
 ForbiddenSet::Exit ForbiddenUnion::deepest_exit(Vec3 t) const {

@@ -59,8 +59,10 @@ void make_both(PlacedGeometry& a, PlacedGeometry& b, Make make) {
   parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? a : b); });
 }
 
-void make_hull_shapes(PlacedGeometry& a, PlacedGeometry& b) {
-  make_both(a, b, [](PlacedGeometry& body) { body.hull_shape(); });
+// In this thread, which hears signals. budget: is polled, and pays nothing.
+void make_hull_shapes(PlacedGeometry& a, PlacedGeometry& b, const Budget& budget) {
+  Budget polling = Budget::that_stops(kNoEnd, [&](const SearchState& state) { budget.tell_again(state.work); });
+  for (PlacedGeometry* body : {&a, &b}) body->hull_shape(&polling);
 }
 
 // Whether the hulls serve one pair only, and cost more than scans of the vertices.
@@ -175,7 +177,7 @@ class Climber {
   }
 
   bool hulls_are_apart() {
-    make_hull_shapes(*request_.a, *request_.b);
+    make_hull_shapes(*request_.a, *request_.b, budget_);
     climb_.hulls = ask_hulls(Query::overlap);
     if (climb_.hulls->outcome != Outcome::separated) return false;
     climb_.hulls = ask_hulls(Query::distance);
@@ -310,7 +312,7 @@ PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, const Bu
   if (method == MethodChoice::automatic && spares_hulls(a, b, alone)) {
     if (const auto depth = depth_of_hulls(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b), &budget)) return *depth;
   }
-  make_hull_shapes(a, b);
+  make_hull_shapes(a, b, budget);
   return check_pair(*a.hull_shape(), {}, *b.hull_shape(), {}, Query::depth, method);
 }
 

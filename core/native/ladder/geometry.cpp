@@ -57,16 +57,16 @@ std::shared_ptr<Surface> Geometry::surface_near(const Aabb& region) {
   return std::make_shared<Surface>(make_plain_surface(mesh_, &region));
 }
 
-std::shared_ptr<Polytope> Geometry::hull() {
-  return once(mutex_, hull_, [&] { return convex_hull(mesh_->vertices); });
+std::shared_ptr<Polytope> Geometry::hull(Budget* budget) {
+  return once(mutex_, hull_, [&] { return convex_hull(mesh_->vertices, budget); });
 }
 
-std::shared_ptr<Shape> Geometry::hull_shape() {
-  return once(mutex_, hull_shape_, [&] { return make_hull(*hull()); });
+std::shared_ptr<Shape> Geometry::hull_shape(Budget* budget) {
+  return once(mutex_, hull_shape_, [&] { return make_hull(*hull(budget)); });
 }
 
-std::shared_ptr<HullPoints> Geometry::hull_points() {
-  return once(mutex_, hull_points_, [&] { return find_hull_points(*mesh_); });
+std::shared_ptr<HullPoints> Geometry::hull_points(Budget* budget) {
+  return once(mutex_, hull_points_, [&] { return find_hull_points(*mesh_, budget); });
 }
 
 std::shared_ptr<Surface> Geometry::surface_of(Mesh placed) {
@@ -96,16 +96,16 @@ std::shared_ptr<Surface> PlacedGeometry::surface() {
   return surface_;
 }
 
-std::shared_ptr<Polytope> PlacedGeometry::hull() {
-  if (!transform_) return shared_->hull();
-  return once(mutex_, hull_, [&] { return convex_hull(mesh()->vertices); });
+std::shared_ptr<Polytope> PlacedGeometry::hull(Budget* budget) {
+  if (!transform_) return shared_->hull(budget);
+  return once(mutex_, hull_, [&] { return convex_hull(mesh()->vertices, budget); });
 }
 
-std::shared_ptr<Shape> PlacedGeometry::hull_shape() {
-  if (!transform_) return shared_->hull_shape();
+std::shared_ptr<Shape> PlacedGeometry::hull_shape(Budget* budget) {
+  if (!transform_) return shared_->hull_shape(budget);
   return once(mutex_, hull_shape_, [&] {
-    auto placed = placed_hull(*shared_->hull_points(), *transform_);
-    return placed ? std::move(*placed) : make_hull(*hull());
+    auto placed = placed_hull(*shared_->hull_points(budget), *transform_);
+    return placed ? std::move(*placed) : make_hull(*hull(budget));
   });
 }
 

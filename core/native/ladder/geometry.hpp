@@ -36,9 +36,10 @@ class Geometry {
   std::shared_ptr<Surface> surface();
   // The surface for queries about this region. The mesh must be plain. The result is not kept.
   std::shared_ptr<Surface> surface_near(const Aabb& region);
-  std::shared_ptr<Polytope> hull();
-  std::shared_ptr<Shape> hull_shape();
-  std::shared_ptr<HullPoints> hull_points();
+  // budget: is spent on hulls that are not made yet.
+  std::shared_ptr<Polytope> hull(Budget* budget = nullptr);
+  std::shared_ptr<Shape> hull_shape(Budget* budget = nullptr);
+  std::shared_ptr<HullPoints> hull_points(Budget* budget = nullptr);
 
   // The surface of the placed mesh.
   std::shared_ptr<Surface> surface_of(Mesh placed);
@@ -77,8 +78,8 @@ class PlacedGeometry {
   std::shared_ptr<Mesh> mesh();  // each coordinate rounded once
   bool placed_as_in_file() const { return !transform_; }
   std::shared_ptr<Surface> surface();
-  std::shared_ptr<Polytope> hull();      // of all vertices, with its faces
-  std::shared_ptr<Shape> hull_shape();   // the same as a shape, usually without faces
+  std::shared_ptr<Polytope> hull(Budget* budget = nullptr);      // of all vertices, with its faces
+  std::shared_ptr<Shape> hull_shape(Budget* budget = nullptr);   // the same as a shape, usually without faces
   // The box of the mesh in the file, moved by the transform. It contains every point within `pad` of the body.
   OrientedBox oriented_box(double pad);
 

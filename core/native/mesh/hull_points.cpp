@@ -54,8 +54,8 @@ double least_stretch(const Vec3 (&row)[3]) {
 
 }  // namespace
 
-HullPoints find_hull_points(const Mesh& mesh) {
-  const Polytope hull = convex_hull(mesh.vertices);
+HullPoints find_hull_points(const Mesh& mesh, Budget* budget) {
+  const Polytope hull = convex_hull(mesh.vertices, budget);
   HullPoints result;
   result.points = hull.vertices;
   if (hull.dimension < 3) return result;

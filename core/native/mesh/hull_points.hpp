@@ -17,7 +17,7 @@ struct HullPoints {
   double depth = 0;
 };
 
-HullPoints find_hull_points(const Mesh& mesh);
+HullPoints find_hull_points(const Mesh& mesh, Budget* budget = nullptr);
 
 // The hull, without faces, of the mesh's vertices placed by a 4x4 matrix as in transform(). Empty if the rounding of
 // the placement may bring another vertex to the surface. Throws what transform() throws.

@@ -144,11 +144,21 @@ bool comes_before(const Surface& a, const Surface& b) {
   return order(a.mesh, b.mesh) <= 0;
 }
 
-NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget) {
+NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget, const NearestPoint* near) {
   if (surface.bvh.nodes.empty()) throw std::invalid_argument("an empty surface has no nearest point");
   const Aabb at{p, p};
   double best = INFINITY;
   NearestPoint result{};
+  const auto compare = [&](std::uint32_t t) {
+    spend(budget, kTriangleWork);
+    const Vec3 q = nearest_on_triangle(p, corners(surface.mesh, t));
+    const double d = norm_squared(q - p);
+    if (d < best) {
+      best = d;
+      result = {std::sqrt(d), q, t};
+    }
+  };
+  if (near != nullptr) compare(near->triangle);
   std::vector<std::pair<double, std::uint32_t>> stack;
   stack.reserve(kUsualDepth);
   stack.push_back({0.0, 0u});
@@ -169,15 +179,7 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget) {
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (!(box_distance_squared(at, box_at(surface.bvh, surface.mesh, i)) < best)) continue;
-      spend(budget, kTriangleWork);
-      const std::uint32_t t = surface.bvh.order[i];
-      const Vec3 q = nearest_on_triangle(p, corners(surface.mesh, t));
-      const double d = norm_squared(q - p);
-      if (d < best) {
-        best = d;
-        result = {std::sqrt(d), q, t};
-      }
+      if (box_distance_squared(at, box_at(surface.bvh, surface.mesh, i)) < best) compare(surface.bvh.order[i]);
     }
   }
   return result;

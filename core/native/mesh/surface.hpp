@@ -89,7 +89,8 @@ struct NearestPoint {
   std::uint32_t triangle;
 };
 
-// The point of the surface nearest to p, by branch and bound over its tree, in float64. Throws std::invalid_argument on an empty surface.
-NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget = nullptr);
+// The point of the surface nearest to p, by branch and bound over its tree, in float64. near: of a triangle that is likely to
+// be near to p. Throws std::invalid_argument on an empty surface.
+NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget = nullptr, const NearestPoint* near = nullptr);
 
 }  // namespace satcheck

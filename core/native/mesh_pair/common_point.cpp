@@ -87,9 +87,9 @@ std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, cons
       double stride = kStride * depth;
       for (int k = 0; k < kStrideHalvings && !climbed; ++k, stride *= 0.5) {
         const Vec3 q = p + way * stride;
-        const NearestPoint at_a = nearest_point(a, q, budget);
+        const NearestPoint at_a = nearest_point(a, q, budget, &on_a);
         if (at_a.distance <= depth * kDeeper) continue;
-        const NearestPoint at_b = nearest_point(b, q, budget);
+        const NearestPoint at_b = nearest_point(b, q, budget, &on_b);
         if (at_b.distance <= depth * kDeeper) continue;
         if (depth <= certain && !inside_both(a, b, q, budget)) continue;
         p = q;

@@ -70,13 +70,17 @@ MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair c
   return make_relation(Relation::penetrating, Evidence{crossing.a, crossing.b, point});
 }
 
+MeshRelation touching_first(const Surface& a, const Surface& b, const SurfaceContacts& contacts) {
+  const auto [ta, tb] = contacts.first();
+  return make_relation(Relation::touching, Evidence{ta, tb, contact_point(corners(a.mesh, ta), corners(b.mesh, tb))});
+}
+
 MeshRelation judged_relation(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted,
                              Budget* budget) {
   MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted, budget));
   if (result.relation == Relation::separated && contacts.any()) {
     // Triangles without area bound no volume, but they are part of the surface.
-    const auto [ta, tb] = contacts.first();
-    result = make_relation(Relation::touching, Evidence{ta, tb, contact_point(corners(a.mesh, ta), corners(b.mesh, tb))});
+    result = touching_first(a, b, contacts);
   }
   result.judged = contacts.contacts.size();
   for (const auto& region : contacts.common) result.judged += region.size();
@@ -154,14 +158,24 @@ MeshRelation with_counts(MeshRelation result, const SurfaceContacts& contacts) {
   return result;
 }
 
+bool boxes_only_touch(const Surface& a, const Surface& b) {
+  if (a.bvh.nodes.empty() || b.bvh.nodes.empty()) return false;
+  const Aabb &p = a.bvh.nodes[0].box, &q = b.bvh.nodes[0].box;
+  return p.min.x >= q.max.x || q.min.x >= p.max.x || p.min.y >= q.max.y || q.min.y >= p.max.y || p.min.z >= q.max.z ||
+         q.min.z >= p.max.z;
+}
+
 MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
   if (same_geometry(a, b)) {
     const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
   if (const auto in_plane = prism_relation(a, b)) return *in_plane;
-  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop, budget, kManyContacts);
-  const bool closed = a.solid && b.solid;
+  const bool closed = a.solid && b.solid, apart = closed && boxes_only_touch(a, b);
+  if (apart && wanted == Wanted::overlap) return make_relation(Relation::separated, {});
+  const SurfaceContacts contacts = find_contacts(a, b, apart ? AtCrossing::stop_at_many : AtCrossing::stop, budget, kManyContacts);
+  // Solids whose boxes are apart have no common interior. Two flush fans of slivers meet in millions of pairs.
+  if (apart && contacts.contacts.size() > kManyContacts) return with_counts(touching_first(a, b, contacts), contacts);
   const auto relation_of = closed ? relation_of_closed : relation_of_open;
   return with_counts(relation_of(a, b, contacts, wanted, budget), contacts);
 }

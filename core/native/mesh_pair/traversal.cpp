@@ -28,7 +28,7 @@ class Traversal {
   SurfaceContacts run() {
     if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return {};
     walk();
-    if (!ended() && is_many()) {
+    if (!ended() && is_many() && at_crossing_ != AtCrossing::stop_at_many) {
       common_.emplace(a_, b_, budget_);
       if (kContactsOfCommon * common_->count() < contacts_.contacts.size()) common_.reset();
       many_ = SIZE_MAX;
@@ -43,7 +43,7 @@ class Traversal {
   }
 
  private:
-  bool ended() const { return contacts_.crossing && at_crossing_ == AtCrossing::stop; }
+  bool ended() const { return contacts_.crossing && at_crossing_ != AtCrossing::go_on; }
   bool is_many() const { return contacts_.contacts.size() > many_; }
 
   void walk() {

@@ -23,7 +23,8 @@ struct SurfaceContacts {
   ContactPair first() const { return contacts.empty() ? common[0][0] : contacts[0]; }
 };
 
-enum class AtCrossing { stop, go_on };
+// stop_at_many: the walk also ends once many pairs meet.
+enum class AtCrossing { stop, go_on, stop_at_many };
 
 // many: if more pairs meet, and many of them are common triangles, these are apart.
 inline constexpr std::size_t kManyContacts = 4096;

@@ -294,7 +294,9 @@ class CellBound {
       for (const std::uint32_t i : near) compare(i);
     } else {
       const Surface& surface = bodies_.surface(body);
-      const double reach = nearest_point(surface, p, &budget_).distance + 2 * tie;
+      std::optional<NearestPoint> known;
+      if (best.depth < INFINITY) known = NearestPoint{best.depth, p, bodies_.patches(body).triangles[bodies_.patch(body, best.patch).first_triangle]};
+      const double reach = nearest_point(surface, p, &budget_, known ? &*known : nullptr).distance + 2 * tie;
       const auto is_near = [&](const Aabb& box) { return box_distance_squared(at, box) <= reach * reach; };
       visit_where(surface.bvh, surface.mesh, is_near, [&](std::uint32_t t) {
         const std::uint32_t i = bodies_.patches(body).patch_of[t];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "base/edge_table.hpp"
@@ -23,11 +24,13 @@ struct Seam {
   std::uint32_t first, second;  // places in the list
 };
 
+// The boxes of more patches would be a third of the memory of a search.
+constexpr std::size_t kMostBoxes = 65536;
+
 class Merging {
  public:
   Merging(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, double flatness)
-      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), merged_(triangles.size()),
-        normals_(triangles.size()) {
+      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), normals_(triangles.size()) {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       const auto c = corners(mesh, triangles[i]);
       const Vec3 normal = rounded_normal(c[0], c[1], c[2]);
@@ -54,6 +57,9 @@ class Merging {
       first += sizes[i];
     }
     list_triangles(result);
+    if (result.patches.size() <= kMostBoxes) {
+      for (const Patch& patch : result.patches) result.boxes.push_back(result.box_of(patch));
+    }
     return result;
   }
 
@@ -62,7 +68,8 @@ class Merging {
 
   // Vertices, of a set at its representative.
   Outline outline(std::uint32_t i) const {
-    return merged_[i].empty() ? Outline(mesh_.triangles[triangles_[i]]) : Outline(merged_[i]);
+    const auto merged = merged_.find(i);
+    return merged == merged_.end() ? Outline(mesh_.triangles[triangles_[i]]) : Outline(merged->second);
   }
 
   std::vector<Seam> flat_seams() const {
@@ -110,7 +117,7 @@ class Merging {
     if (!is_convex_at(joined, kept, seam.from) || !is_convex_at(joined, kept, seam.to)) return;
     sets_.unite(p, q);
     merged_[kept] = std::move(joined);
-    merged_[std::max(p, q)].clear();
+    merged_.erase(std::max(p, q));
   }
 
   // Empty where they share more than the seam, or have too many corners.
@@ -163,13 +170,13 @@ class Merging {
   const std::vector<std::uint32_t>& triangles_;
   double flatness_;
   DisjointSets sets_;
-  std::vector<std::vector<std::uint32_t>> merged_;  // outlines of sets of several triangles, at their representatives
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> merged_;  // outlines of sets of several triangles, at their representatives
   std::vector<Vec3> normals_;                       // of each triangle
 };
 
 }  // namespace
 
-Aabb ConvexPatches::box(const Patch& patch) const {
+Aabb ConvexPatches::box_of(const Patch& patch) const {
   Aabb box;
   for (std::uint32_t i = patch.first; i < patch.first + patch.count; ++i) box.include(outlines[i]);
   return box.widened(patch.slack);

@@ -22,13 +22,15 @@ struct ConvexPatches {
   std::vector<Vec3> outlines;            // counter-clockwise seen from the side of the normal
   std::vector<std::uint32_t> triangles;  // numbers in the mesh
   std::vector<std::uint32_t> patch_of;   // each triangle of the mesh; kNoPatch: none
+  std::vector<Aabb> boxes;               // of each patch, where they are few; empty: not kept
 
-  Aabb box(const Patch& patch) const;
+  Aabb box(std::uint32_t number) const { return boxes.empty() ? box_of(patches[number]) : boxes[number]; }
   Vec3 origin(const Patch& patch) const { return outlines[patch.first]; }  // a corner
   // The distance from p to the patch, rounded: never below the true one by more than rounding.
   double distance(const Patch& patch, Vec3 p) const { return norm(nearest(patch, p) - p); }
   // A point of the patch, the nearest one up to rounding.
   Vec3 nearest(const Patch& patch, Vec3 p) const;
+  Aabb box_of(const Patch& patch) const;
 };
 
 // Of these triangles. flatness: patches may deviate from a plane by this length.

@@ -49,7 +49,7 @@ class TwoBodies {
   const ConvexPatches& patches(int body) const { return patches_[static_cast<std::size_t>(body)]; }
   // All that is no farther from the box than that; in the plane, in its directions.
   Aabb widened(const Aabb& box, double reach) const;
-  Aabb box(int body, std::uint32_t i) const { return patches(body).box(patch(body, i)); }
+  Aabb box(int body, std::uint32_t i) const { return patches(body).box(i); }
   const Patch& patch(int body, std::uint32_t i) const { return patches(body).patches[i]; }
 
   // Makes the patches of the triangles that are no farther than `reach` from the box. flatness: convex_patches.hpp. The time

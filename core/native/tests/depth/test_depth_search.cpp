@@ -61,6 +61,21 @@ void holds_the_truth() {
   CHECK(narrow > overlapping / 2);
 }
 
+// Steps that are added change no step before them.
+void gains_by_more_work() {
+  std::mt19937 generator(25);
+  for (int round = 0; round < rounds(60); ++round) {
+    const Pair p = random_pair(generator);
+    if (p.depth == 0) continue;
+    DepthInterval before;
+    for (const std::uint64_t work : {1'000'000, 5'000'000, 8'000'000, 16'000'000, 50'000'000, 100'000'000, 200'000'000}) {
+      const DepthInterval found = search_depth(p.a, p.b, {.upper = known_way_out(p), .width = 0.001, .work = work});
+      CHECK(found.upper <= before.upper && found.lower >= before.lower);
+      before = found;
+    }
+  }
+}
+
 // A limit below the depth is decided; one above it leaves the interval narrow.
 void stops_at_a_limit() {
   std::mt19937 generator(24);
@@ -92,6 +107,7 @@ void in_a_plane() {
 
 UNIT(depth_search) {
   holds_the_truth();
+  gains_by_more_work();
   stops_at_a_limit();
   in_a_plane();
 }
