@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 
 from msgspec.structs import replace
 
@@ -44,7 +45,7 @@ class Planner:
         self.moving = moving
         self._book = book
         self._composed = composed
-        self._by_flags = request_for(settings, composed=composed)
+        self._by_flags = _by_flags(settings, composed)
         self._requests: dict[tuple[int, ...], Request] = {}
 
     def request(self, i: int, j: int) -> Request:
@@ -104,6 +105,12 @@ class Planner:
             )
             for body, resolution in resolutions.items()
         ]
+
+
+@lru_cache(maxsize=8)
+def _by_flags(settings: Settings, composed: bool) -> Request:
+    """Checks of the same settings share it: it costs as much as the relation of two boxes."""
+    return request_for(settings, composed=composed)
 
 
 def request_for(

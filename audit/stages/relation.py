@@ -123,7 +123,8 @@ def open_hole(pair: Pair, hole: core.OpenHole) -> str:
 def _climb(pair: Pair, last: Rung | None = None) -> core.Climb:
     """Climb with one pair as far as the settings allow. Raises what making its bodies raises."""
     last = "aabb" if pair.curved else last or LAST[pair.settings.accuracy]
-    return core.climb(_question(pair), "aabb", last, pair.settings.method, pair.steps)
+    method, steps = pair.settings.method, pair.steps
+    return core.climb(_question(pair), "aabb", last, method, steps, pair.alone)
 
 
 def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.Climb | None]]:

@@ -448,6 +448,7 @@ def climb(
     last: Rung = "triangles",
     method: str = "auto",
     steps: int = ...,
+    alone: bool = False,
 ) -> Climb: ...
 
 class Climbing:

@@ -277,13 +277,13 @@ most of each pair.)")
            R"(Waits, then returns the results, only once: a Climb for each pair, the same for any number of threads; None: the climb
 failed, and climb() raises for this pair.)");
   m.def("climb",
-        [](const nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>& pair, const std::string& first, const std::string& last, const std::string& method, std::uint64_t steps) {
-          const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method), false, steps);
+        [](const nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>& pair, const std::string& first, const std::string& last, const std::string& method, std::uint64_t steps, bool alone) {
+          const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method), alone, steps);
           const Rung from = rung_from(first), to = rung_from(last);
           const nb::gil_scoped_release release;
           return climb(request, from, to, interrupting());
         },
-        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto", "steps"_a = kNoEnd,
+        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto", "steps"_a = kNoEnd, "alone"_a = false,
         "One pair of Climbing, from the rung `first` on.");
   m.def("hull_depth", [](PlacedGeometry& a, PlacedGeometry& b, bool alone) {
           return hull_depth(a, b, alone, Budget::that_stops(kNoEnd, interrupting()));
