@@ -8,7 +8,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from msgspec import UNSET, Struct, UnsetType
+from msgspec import UNSET, UnsetType
 from msgspec.structs import replace
 
 from satcheck import core
@@ -33,6 +33,7 @@ from satcheck.audit.summary import (
     count,
     doubtful_sizes,
     effects_of,
+    empty_report,
     issues_of,
     stopped_early,
     tool,
@@ -46,7 +47,6 @@ from satcheck.report.report import (
     Finding,
     Issue,
     Report,
-    RuleReport,
     Summary,
     all_allowed,
 )
@@ -124,15 +124,7 @@ def check_meshes_of(scene: Scene, settings: Settings) -> Finding:
                 pair = Pair(a, b, settings, request, *tools, alone=True)
                 examined[0, 1] = examine_pair(pair)
     (finding,) = _findings(bodies, [*examined], [*examined.values()], planner)
-    return replace(finding, message=finding_message(finding, _OfMeshes(settings)))
-
-
-class _OfMeshes(Struct, frozen=True):
-    """What the message about two meshes in memory depends on, as a report of them states it."""
-
-    settings: Settings
-    units: str | None = None
-    rules: tuple[RuleReport, ...] = ()
+    return replace(finding, message=finding_message(finding, empty_report(settings)))
 
 
 def _require_bodies(scene: Scene, least: int) -> None:

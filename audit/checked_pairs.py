@@ -210,6 +210,9 @@ def _batched(
     """Yield the pairs batch by batch, each while the next one climbs."""
     import os
 
+    if len(order) == 1:  # it climbs when it is examined
+        yield order[0], examine_pair(pairs[order[0]])
+        return
     threads = min(jobs or os.cpu_count() or 1, len(pairs)) if len(pairs) >= PARALLEL_PAIRS else 1
     ahead: tuple[list[int], Callable[[], list[Climb | None]]] | None = None
     for batch in _batches(pairs, order, threads):

@@ -37,7 +37,6 @@ from satcheck.report.verdict import is_failure, is_unmet, severity, unlisted_ind
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.words import Stated
     from satcheck.report.report import BodyAnswer, Finding, Issue, Report
     from satcheck.report.statics import Statics
 
@@ -245,7 +244,7 @@ def answer_message(answer: BodyAnswer) -> str:
     return f"{answer.body} {is_not} {answer.question}: {answer.reason}"
 
 
-def finding_message(finding: Finding, report: Stated) -> str:
+def finding_message(finding: Finding, report: Report) -> str:
     """Return `box and lid overlap (thickness 0.5 mm, 1 mm to pull apart); moving box by (-1, 0, 0)
     ends the overlap.`"""
     text, swept = clause(finding, report), finding.motion
@@ -284,7 +283,7 @@ def kind_of(finding: Finding) -> str:
     return "touch" if finding.relation == "touching" and finding.rule is None else "clearance"
 
 
-def clause(finding: Finding, report: Stated, *, brief: bool = False) -> str:
+def clause(finding: Finding, report: Report, *, brief: bool = False) -> str:
     """Return `fence and palm are 40 mm apart (clearance 45 mm)`. brief: without joints."""
     unit, pair = unit_of(report.units), f"{finding.a} and {finding.b}"
     if _hits_only(finding):
@@ -307,14 +306,14 @@ def _hits_only(finding: Finding) -> bool:
     return is_hit(finding) and finding.at_rest not in OVERLAPS
 
 
-def _overlap(finding: Finding, report: Stated) -> str:
+def _overlap(finding: Finding, report: Report) -> str:
     if finding.quality != "estimate":
         return _OVERLAP[finding.at_rest].format(finding.a, finding.b)
     possibly = "possibly " if is_unsure(finding, report) else ""
     return f"{finding.a} and {finding.b} {possibly}overlap"
 
 
-def is_unsure(finding: Finding, report: Stated) -> bool:
+def is_unsure(finding: Finding, report: Report) -> bool:
     """Return whether an overlap is stated, and none is proven."""
     if finding.quality != "estimate" or finding.at_rest not in OVERLAPS:
         return False

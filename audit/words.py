@@ -5,11 +5,11 @@ point; the JSON report has all of them."""
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_UP, Decimal
 from itertools import takewhile
 from math import inf
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
@@ -21,7 +21,6 @@ from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
     from satcheck.report.report import BodyReport, Finding, Relation, Report, RuleReport
-    from satcheck.report.settings import StatedSettings
     from satcheck.report.sweep import Joints, Place
     from satcheck.report.values import Interval
 
@@ -37,17 +36,6 @@ NEGLIGIBLE = 1e-3
 MOST_JOINTS = 8
 LONGEST_NAME = 40  # where there is little room
 _MILDER: tuple[Relation, ...] = ("indeterminate", "touching", "near", "separated")
-
-
-class Stated(Protocol):
-    """What words about a finding depend on beside it, as a report states it."""
-
-    @property
-    def units(self) -> str | None: ...
-    @property
-    def settings(self) -> StatedSettings: ...
-    @property
-    def rules(self) -> Sequence[RuleReport]: ...
 
 
 def number(value: float) -> str:
@@ -213,14 +201,14 @@ def with_unit(figure: str, unit: str | None) -> str:
     return f"{figure} {unit}" if unit else figure
 
 
-def rule_of(finding: Finding, report: Stated) -> RuleReport | None:
+def rule_of(finding: Finding, report: Report) -> RuleReport | None:
     """The rule of the scene that decided the severity; None, too, where several have its name, as
     those of one line do."""
     named = [rule for rule in report.rules if rule.name == finding.rule]
     return named[0] if len(named) == 1 else None
 
 
-def limits(finding: Finding, report: Stated) -> list[str]:
+def limits(finding: Finding, report: Report) -> list[str]:
     """What the pair is held against: `clearance 5 mm`; of an overlap `max_depth 1 mm`."""
     unit, rule = unit_of(report.units), rule_of(finding, report)
     if finding.relation not in OVERLAPS:

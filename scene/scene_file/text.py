@@ -223,7 +223,9 @@ def lines_of(text: str, wanted: Iterable[Keys], *, toml: bool) -> Mapping[Keys, 
 
     Raises ValueError or IndexError for a text that is no such document.
     """
-    around = {keys[:count] for keys in wanted for count in range(len(keys) + 1)}
+    around = parents = set(wanted)
+    while parents := {keys[:-1] for keys in parents if keys}:
+        around |= parents
     outer = all(len(keys) < 2 or (len(keys) == 2 and isinstance(keys[1], int)) for keys in around)
     lines: dict[Keys, int] = {(): 1}
     line, counted = 1, 0

@@ -457,7 +457,6 @@ class Climbing:
         pairs: list[Question],
         last: Rung = "triangles",
         threads: int = 0,
-        alone: bool = False,
         method: str = "auto",
         steps: int = ...,
     ) -> None: ...
