@@ -103,15 +103,13 @@ def mesh_key(file: MeshFile, *, is_open: bool) -> MeshKey:
 class SharedMesh:
     """The data that all bodies with one mesh share, in file coordinates.
 
-    geometry: tree, hull and convexity. bounds: of the mesh. largest: the largest absolute
-    coordinate. is_complete: its
+    geometry: tree, hull and convexity. largest: the largest absolute coordinate. is_complete: its
     reader leaves nothing out without a word. covers_once(): the
     solid covers no point twice, so its volume is that of its mesh. has_sheets(): parts of the
     surface of the solid have no inside on either side.
     """
 
     __slots__ = (
-        "bounds",
         "covers_once",
         "decomposition",
         "file",
@@ -136,7 +134,6 @@ class SharedMesh:
         is_open = is_open or settings.allow_open
         self.triangles = file.mesh.triangle_count
         self.surface_tolerance = settings.surface_tolerance
-        self.bounds: Box = file.mesh.bounds
         self.largest = file.mesh.largest_coordinate
         self.is_complete = is_complete(file.format)
         health = file.health

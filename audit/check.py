@@ -13,13 +13,7 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
-from satcheck.audit.checked_pairs import (
-    CheckedPair,
-    Progress,
-    StepsOfScene,
-    examine_pair,
-    examine_pairs,
-)
+from satcheck.audit.checked_pairs import Progress, StepsOfScene, examine_pair, examine_pairs
 from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.figures import with_figures
@@ -55,6 +49,7 @@ from satcheck.scene import Scene
 from satcheck.scene.files.readers import stated_options
 
 if TYPE_CHECKING:
+    from satcheck.audit.checked_pairs import CheckedPair
     from satcheck.audit.motion.sweep import Movers
     from satcheck.core.peers import Peers, VolumeMeter
     from satcheck.report.baseline import UndecidedBy

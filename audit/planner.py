@@ -45,7 +45,7 @@ class Planner:
         self.moving = moving
         self._book = book
         self._composed = composed
-        self._by_flags = _by_flags(settings, composed)
+        self._by_flags = _by_flags(settings, composed=composed)
         self._requests: dict[tuple[int, ...], Request] = {}
 
     def request(self, i: int, j: int) -> Request:
@@ -107,12 +107,6 @@ class Planner:
         ]
 
 
-@lru_cache(maxsize=8)
-def _by_flags(settings: Settings, composed: bool) -> Request:
-    """Checks of the same settings share it: it costs as much as the relation of two boxes."""
-    return request_for(settings, composed=composed)
-
-
 def request_for(
     settings: Settings, terms: Terms | None = None, *, composed: bool = False
 ) -> Request:
@@ -153,6 +147,10 @@ def request_for(
             if by_failing and setting is None and not by[effect]
         ),
     )
+
+
+# Checks with the same settings share it: it takes longer than the relation of two boxes.
+_by_flags = lru_cache(maxsize=8)(request_for)
 
 
 def _requests_effect(rule: RuleReport, key: str) -> bool:

@@ -236,7 +236,7 @@ def doubtful_sizes(
 
 def size_of(body: PlacedBody, plane: Plane | None) -> float:
     """The longest side of its own box, world units: the same in every pose."""
-    low, high = body.shared.bounds
+    low, high = body.body.file.mesh.bounds
     sides = [v - u for u, v in zip(low, high, strict=True)]
     if plane is not None:
         sides = [sides[axis] for axis in axes_of(plane)]

@@ -219,8 +219,7 @@ def _json(path: str, text: str) -> tuple[Any, bool]:
 
 
 def lines_of(text: str, wanted: Iterable[Keys], *, toml: bool) -> Mapping[Keys, int]:
-    """The lines, from 1, of these keys and of all around them, as far as the text states them; of a
-    text of one line, of all.
+    """The lines, from 1, of these keys and of all around them, as far as the text states them.
 
     Raises ValueError or IndexError for a text of several lines that is no such document.
     """
