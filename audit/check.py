@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 from msgspec import UNSET, UnsetType
 from msgspec.structs import replace
 
+from satcheck import core
 from satcheck.audit.bodies import BodyCache, PlacedBodies, place
-from satcheck.audit.checked_pairs import CheckedPair, Progress, StepsOfScene, examine_pairs
+from satcheck.audit.checked_pairs import Progress, StepsOfScene, examine_pair, examine_pairs
 from satcheck.audit.close_pairs import ClosePairs, IndexPair
 from satcheck.audit.draft import Draft, indeterminate
 from satcheck.audit.figures import with_figures
 from satcheck.audit.finding import examine_boxes
-from satcheck.audit.messages import with_messages
+from satcheck.audit.messages import finding_message, with_messages
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.settings import LISTED_PAIRS, LISTED_UNDECIDABLE, Settings, require_settings
@@ -26,6 +27,7 @@ from satcheck.audit.summary import (
     count,
     doubtful_sizes,
     effects_of,
+    empty_report,
     issues_of,
     stopped_early,
     tool,
@@ -47,10 +49,12 @@ from satcheck.scene import Scene
 from satcheck.scene.files.readers import stated_options
 
 if TYPE_CHECKING:
+    from satcheck.audit.checked_pairs import CheckedPair
     from satcheck.audit.motion.sweep import Movers
-    from satcheck.core.peers import VolumeMeter
+    from satcheck.core.peers import Peers, VolumeMeter
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
+    from satcheck.report.request import Request
     from satcheck.report.statics import Statics
 
 DEFAULT_SETTINGS = Settings()
@@ -97,6 +101,25 @@ def check(
     )
     examined = with_figures(examined, settings, keep=cache is not None)
     return _report(scene, bodies, planner, movers, pairs, examined, unexamined)
+
+
+def check_meshes_of(scene: Scene, settings: Settings) -> Finding:
+    """Return the finding of the only pair of a scene of two meshes in memory, as `check` reports
+    it. No other part of a report is made."""
+    scene = _loaded(scene, settings)
+    bodies = place(scene, settings)
+    planner = Planner(settings, bodies.book)
+    examined: dict[IndexPair, CheckedPair] = {}
+    if len(bodies.placed) == 2:
+        a, b = bodies.placed.values()
+        reach = planner.reach({0: a.resolution, 1: b.resolution})
+        if core.box_gap(a.bounds, b.bounds) <= sum(reach):
+            request = planner.request(0, 1)
+            with _tools(settings, [request]) as tools:
+                pair = Pair(a, b, settings, request, *tools, alone=True)
+                examined[0, 1] = examine_pair(pair)
+    (finding,) = _findings(bodies, [*examined], [*examined.values()], planner)
+    return replace(finding, message=finding_message(finding, empty_report(settings)))
 
 
 def _require_bodies(scene: Scene, least: int) -> None:
@@ -280,30 +303,32 @@ def _examined_together(
 ) -> list[CheckedPair]:
     settings = planner.settings
     requests = [planner.request(i, j) for i, j in close]
-    with ExitStack() as stack:
-        measures = any(request.wants("volume") for request in requests)
-        meter = stack.enter_context(volume_meter(settings)) if measures else None
-        peers = None
-        if settings.cross_check:
-            from satcheck.core.peers import Peers
-
-            seconds, megabytes = settings.cross_check_seconds, settings.cross_check_megabytes
-            peers = stack.enter_context(Peers(seconds=seconds, megabytes=megabytes))
+    with _tools(settings, requests) as tools:
+        alone = len(close) == 1 and not keep
         pairs = [
-            Pair(
-                bodies.placed[i],
-                bodies.placed[j],
-                settings,
-                request,
-                meter,
-                peers,
-                alone=len(close) == 1 and not keep,
-            )
+            Pair(bodies.placed[i], bodies.placed[j], settings, request, *tools, alone=alone)
             for (i, j), request in zip(close, requests, strict=True)
         ]
         if movers is not None:
             movers.add_sweeps(pairs)
         return examine_pairs(pairs, settings.jobs, progress, budget=budget, keep=keep)
+
+
+@contextmanager
+def _tools(
+    settings: Settings, requests: Sequence[Request]
+) -> Iterator[tuple[VolumeMeter | None, Peers | None]]:
+    """The other libraries that pairs with these requests need."""
+    with ExitStack() as stack:
+        meter = peers = None
+        if any(request.wants("volume") for request in requests):
+            meter = stack.enter_context(volume_meter(settings))
+        if settings.cross_check:
+            from satcheck.core.peers import Peers
+
+            seconds, megabytes = settings.cross_check_seconds, settings.cross_check_megabytes
+            peers = stack.enter_context(Peers(seconds=seconds, megabytes=megabytes))
+        yield meter, peers
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:
@@ -322,9 +347,9 @@ def _findings(
     of few pairs, of those that are apart by their boxes."""
     findings = {pair: checked.finding for pair, checked in zip(close, examined, strict=True)}
     settings = planner.settings
+    total, allowed = bodies.book.count()
     listed = settings.list_pruned
     if listed is None:
-        total, allowed = bodies.book.count()
         listed = total - allowed <= LISTED_PAIRS
     most = None if listed else LISTED_UNDECIDABLE
     for i, j, reason in islice(bodies.undecidable_pairs(), most):
@@ -333,7 +358,7 @@ def _findings(
         if usable and not bodies.is_comparable(i, j):
             code = "units-unknown"
         findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, reason_code=code)
-    if listed:
+    if listed and len(findings) < total - allowed:
         for i, j in bodies.book.checked_pairs():
             if (i, j) not in findings:
                 request = planner.request(i, j)

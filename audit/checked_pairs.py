@@ -210,6 +210,9 @@ def _batched(
     """Yield the pairs batch by batch, each while the next one climbs."""
     import os
 
+    if len(order) == 1:  # it climbs when it is examined
+        yield order[0], examine_pair(pairs[order[0]])
+        return
     threads = min(jobs or os.cpu_count() or 1, len(pairs)) if len(pairs) >= PARALLEL_PAIRS else 1
     ahead: tuple[list[int], Callable[[], list[Climb | None]]] | None = None
     for batch in _batches(pairs, order, threads):
@@ -243,12 +246,12 @@ def _examined(
     heavy = [k for k in batch if threads > 1 and leaves_work(pairs[k], climb[k])]
     if len(heavy) < PARALLEL_PAIRS:
         for k in batch:
-            yield k, _examine(pairs[k], climb[k])
+            yield k, examine_pair(pairs[k], climb[k])
         return
-    results = in_parallel(lambda k: _examine(pairs[k], climb[k]), heavy, threads)
+    results = in_parallel(lambda k: examine_pair(pairs[k], climb[k]), heavy, threads)
     is_heavy = set(heavy)
     for k in batch:
-        yield k, next(results) if k in is_heavy else _examine(pairs[k], climb[k])
+        yield k, next(results) if k in is_heavy else examine_pair(pairs[k], climb[k])
 
 
 def _careful(pairs: Sequence[Pair], order: Sequence[int]) -> Iterator[tuple[int, CheckedPair]]:
@@ -257,7 +260,7 @@ def _careful(pairs: Sequence[Pair], order: Sequence[int]) -> Iterator[tuple[int,
         a, b = pairs[k].a.id, pairs[k].b.id
         try:
             with risky_step(f"checking {a!r} and {b!r}"):
-                checked = _examine(pairs[k])
+                checked = examine_pair(pairs[k])
         except LeftOut as error:
             reason = f"the process that checked this pair {error.message}"
             issue = Issue(error.code, "warning", None, None, f"{a} and {b}: {reason}")
@@ -265,7 +268,7 @@ def _careful(pairs: Sequence[Pair], order: Sequence[int]) -> Iterator[tuple[int,
         yield k, checked
 
 
-def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
+def examine_pair(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     """Return the finding of one pair. A failure becomes a finding."""
     draft = Draft(pair)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from msgspec import Struct, field
 
 from satcheck.audit.pair import Pair
-from satcheck.report.judge import EXACT_WIDTH, quality_of
+from satcheck.report.judge import EXACT_WIDTH, Judgement, quality_of
 from satcheck.report.report import (
     Ball,
     Finding,
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from satcheck.core.curved.signed import Signed
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.contacts import Components, Contacts
+    from satcheck.report.values import Interval
 
 NANOSECONDS_PER_MICROSECOND = 1000.0
 Side = Literal["open", "within", "deeper", "hidden"]
@@ -192,14 +193,22 @@ class Draft(Struct, eq=False):
         self.exact, self.exact_proven, self.gap_lower = exact, proven, gap_lower
         self.signed, self.weak, self.overlaps = signed, weak, overlaps
 
-    def finding(self) -> Finding:
-        """Return the finding, not yet judged."""
+    @property
+    def depth_bounds(self) -> Interval | None:
+        return None if self.depth is None else (self.depth.lower, self.depth.upper)
+
+    @property
+    def thickness_bounds(self) -> Interval | None:
+        return None if self.thickness is None else (self.thickness.lower, self.thickness.upper)
+
+    def finding(self, judgement: Judgement) -> Finding:
+        """Return the finding, without a message."""
         pair, depth, thick = self.pair, self.depth, self.thickness
         gap = self.gap if pair.request.wants("distance") else None
         if gap is not None and gap.distance is None:
             gap = None
         figure = gap if depth is None else depth  # a pair has at most one of them
-        depths = None if depth is None else (depth.lower, depth.upper)
+        depths = self.depth_bounds
         gaps = None
         if gap is not None and (pair.closer > 0 or not gap.exact):
             gaps = gap.lower, gap.upper
@@ -207,7 +216,9 @@ class Draft(Struct, eq=False):
             id=finding_id(pair.a.id, pair.b.id),
             a=pair.a.id,
             b=pair.b.id,
-            severity="none",
+            rule=judgement.rule,
+            severity=judgement.severity,
+            undecided=judgement.undecided,
             relation=self.relation,
             exact_relation=self.exact_relation,
             tolerance=pair.tolerance,
@@ -222,13 +233,14 @@ class Draft(Struct, eq=False):
             mtv_verified=None if depth is None else depth.escape.verified,
             witness=None if figure is None else figure.witness,
             thickness=None if thick is None else thick.upper,
-            thickness_bounds=None if thick is None else (thick.lower, thick.upper),
+            thickness_bounds=self.thickness_bounds,
             ball=None if thick is None else thick.ball,
             volume=self.volume,
             volume_error=self.volume_error,
             contacts=self.contacts,
             components=self.components,
-            reason=self.reason,
+            reason=self.reason or judgement.reason,
+            reason_code=self.reason_code if judgement.undecided == "relation" else None,
             plan=tuple(self.stages),
         )
 

@@ -92,7 +92,7 @@ def examine_boxes(draft: Draft) -> Finding:
     draft.contacts = Contacts() if "contacts" in asked else None
     draft.components = Components() if "components" in asked else None
     _cap(draft)
-    return draft.finding()
+    return draft.finding(Judgement("none"))
 
 
 def deep_overlap(pair: Pair) -> Finding:
@@ -224,36 +224,26 @@ def _judged_draft(draft: Draft) -> Finding:
     pair, gap = draft.pair, draft.gap
     was_proven = draft.proven
     _cap(draft)
-    finding = draft.finding()
     bounds, kept = ((0.0, 0.0), None) if gap is None else ((gap.lower, gap.upper), gap.kept)
-    judgement = judged(finding, pair.request, bounds, kept)
+    judgement = judged(draft, pair.request, bounds, kept)
     if not was_proven:
-        judgement = _of_estimate(judgement, finding, pair, overlaps=draft.overlaps)
+        judgement = _of_estimate(judgement, draft)
     if draft.disputed is not None:
         judgement = disputed(judgement, draft.disputed)
-    return replace(
-        finding,
-        severity=judgement.severity,
-        rule=judgement.rule,
-        undecided=judgement.undecided,
-        reason_code=draft.reason_code if judgement.undecided == "relation" else None,
-        reason=finding.reason or judgement.reason,
-    )
+    return draft.finding(judgement)
 
 
-def _of_estimate(
-    judgement: Judgement, finding: Finding, pair: Pair, *, overlaps: bool
-) -> Judgement:
+def _of_estimate(judgement: Judgement, draft: Draft) -> Judgement:
     """Return the judgement of an estimate. An unproven relation does not pass, and an unproven
-    overlap does not fail, unless --accuracy or --allow-open accepts estimates. overlaps: an overlap
-    is proven, even if the relation is not."""
-    settings = pair.settings
+    overlap does not fail, unless --accuracy or --allow-open accepts estimates."""
+    pair, settings = draft.pair, draft.pair.settings
     if settings.accuracy != "exact" or pair.open_on_purpose:
         return judgement
-    if finding.relation in OVERLAPS and overlaps:
-        is_proven = finding.mtv_verified or not judgement.passes
+    if draft.relation in OVERLAPS and draft.overlaps:
+        is_verified = draft.depth is not None and draft.depth.escape.verified
+        is_proven = is_verified or not judgement.passes
         return judgement if is_proven else judgement.warned("relation")
-    if finding.relation in OVERLAPS:  # or a gap that may keep no clearance
+    if draft.relation in OVERLAPS:  # or a gap that may keep no clearance
         close = clearance_judgement(pair.request, 0.0, 0.0)
         if close is not None and close.severity == "error":
             return by_rule(close, pair.request).warned("relation")

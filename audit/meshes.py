@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from satcheck.audit.check import DEFAULT_SETTINGS, check
+from satcheck.audit.check import DEFAULT_SETTINGS, check_meshes_of
 from satcheck.audit.settings import Settings, require_settings
 from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_arrays import MeshLike
@@ -60,5 +60,4 @@ def check_meshes(
     scene = scene_of_meshes({"a": a, "b": b}, {"a": pose_a, "b": pose_b})
     if settings.list_pruned is False:
         settings = replace(settings, list_pruned=True)
-    (finding,) = check(scene, settings).findings
-    return finding
+    return check_meshes_of(scene, settings)

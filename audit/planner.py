@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 
 from msgspec.structs import replace
 
@@ -44,7 +45,7 @@ class Planner:
         self.moving = moving
         self._book = book
         self._composed = composed
-        self._by_flags = request_for(settings, composed=composed)
+        self._by_flags = _by_flags(settings, composed=composed)
         self._requests: dict[tuple[int, ...], Request] = {}
 
     def request(self, i: int, j: int) -> Request:
@@ -146,6 +147,10 @@ def request_for(
             if by_failing and setting is None and not by[effect]
         ),
     )
+
+
+# Checks with the same settings share it: it takes longer than the relation of two boxes.
+_by_flags = lru_cache(maxsize=8)(request_for)
 
 
 def _requests_effect(rule: RuleReport, key: str) -> bool:

@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 from typing import Any, get_args, get_type_hints
 
 from msgspec import ValidationError, convert
-from msgspec.structs import fields
+from msgspec.structs import fields, force_setattr
 
 from satcheck.core.conventions import LARGEST_LENGTH, axis_across
 from satcheck.core.errors import SatcheckError
@@ -72,6 +72,8 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
                 convert(plain, kind)
             except ValidationError as error:
                 raise _refused(f"{name}: {_reason(error, kind)}, not {value!r}") from None
+        if isinstance(self.accept, list):
+            force_setattr(self, "accept", tuple(self.accept))
         for name in ("contacts", "components", "volume", "cross_check"):
             if not getattr(self, name):
                 continue

@@ -24,6 +24,7 @@ from satcheck.report.report import (
     NOTHING_TO_CHECK,
     NOTHING_TO_COMPARE,
     OVERLAPS,
+    RELATIONS,
     SIZES_DIFFER,
     STOPPED_EARLY,
     TOLERANCE_LARGE,
@@ -34,9 +35,12 @@ from satcheck.report.report import (
     Issue,
     PairCounts,
     PartError,
+    Report,
+    Summary,
     Tool,
 )
 from satcheck.report.request import ON_REQUEST, Request
+from satcheck.report.settings import StatedSettings
 from satcheck.report.verdict import exempt_by, fails, unlisted_indeterminate
 from satcheck.scene import Body, Unreadable
 from satcheck.scene.bodies import Accepted
@@ -68,6 +72,20 @@ NO_ANSWER = "no answer"
 
 def tool() -> Tool:
     return Tool("satcheck", __version__)
+
+
+def empty_report(settings: StatedSettings, issues: Iterable[Issue] = ()) -> Report:
+    """Return a report without bodies and pairs, of which nothing is known."""
+    none = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
+    return Report(
+        tool=tool(),
+        units=None,
+        settings=settings,
+        summary=Summary("incomplete", none, dict.fromkeys(RELATIONS, 0)),
+        bodies=(),
+        findings=(),
+        issues=tuple(issues),
+    )
 
 
 def count(

@@ -37,8 +37,8 @@ MeshLike: TypeAlias = "FacesMesh | TrianglesMesh | tuple[ArrayLike, ArrayLike]"
 
 
 def arrays_of(mesh: MeshLike) -> tuple[Array, Array]:
-    """Return (vertices, faces) as arrays. Raises SatcheckError `bad-argument` for arrays of another
-    form, for indices out of range, and for coordinates that are not finite."""
+    """Return (vertices, faces) as arrays of rows of three. Raises SatcheckError `bad-argument` for
+    arrays of another form."""
     vertices: ArrayLike | None
     faces: ArrayLike | None
     if isinstance(mesh, tuple | list) and len(mesh) == 2 and not hasattr(mesh[0], "vertices"):
@@ -56,12 +56,15 @@ def arrays_of(mesh: MeshLike) -> tuple[Array, Array]:
             hint = " (satcheck.scene_of_meshes takes a scene; its to_mesh() is one mesh)"
         wanted = "an object with vertices and faces, or a pair (vertices, faces)"
         raise refused(f"{wanted}, got {type(mesh).__name__}{hint}")
-    return _checked(numbers(vertices, "vertices"), _integers(faces, "faces"))
+    points, rows = numbers(vertices, "vertices"), _integers(faces, "faces")
+    _require_rows(points, "vertices", "three numbers")
+    _require_rows(rows, "faces", "three integers")
+    return points, rows
 
 
-def _checked(vertices: Array, faces: Array) -> tuple[Array, Array]:
-    _require_rows(vertices, "vertices", "three numbers")
-    _require_rows(faces, "faces", "three integers")
+def require_usable(vertices: Array, faces: Array) -> None:
+    """Raise SatcheckError `bad-argument` for indices out of range, and for coordinates that are not
+    finite."""
     require_finite(vertices, "vertices")
     if faces.min() < 0 or faces.max() >= len(vertices):
         outside = (faces < 0) | (faces >= len(vertices))
@@ -69,7 +72,6 @@ def _checked(vertices: Array, faces: Array) -> tuple[Array, Array]:
         index = faces[row][outside[row]][0]
         there_are = f"there are {len(vertices)} vertices, numbered from 0"
         raise refused(f"faces: row {row} has the index {index}: {there_are}")
-    return vertices, faces
 
 
 def _require_rows(values: Array, name: str, what: str) -> None:

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import inf
+from typing import Protocol
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Severity, Undecided
+from satcheck.report.report import OVERLAPS, SEVERITIES, Severity, Undecided
 from satcheck.report.request import Request
 from satcheck.report.values import Interval, Quality, Relation
 
@@ -41,6 +42,21 @@ class Judgement(Struct, frozen=True):
         return replace(self, severity=severity, undecided=undecided)
 
 
+class Figures(Protocol):
+    """What a finding is judged by."""
+
+    @property
+    def relation(self) -> Relation: ...
+    @property
+    def depth_bounds(self) -> Interval | None: ...
+    @property
+    def thickness_bounds(self) -> Interval | None: ...
+    @property
+    def volume(self) -> float | None: ...
+    @property
+    def volume_error(self) -> float | None: ...
+
+
 def named(exact: Relation, within: bool | None, kept: bool | None = True) -> Relation:
     """Return what a pair of bodies is called where they are placed. Nothing else decides whether
     that is `touching`; what a motion meets on its way has words of its own (`report.sweep`).
@@ -60,7 +76,7 @@ def named(exact: Relation, within: bool | None, kept: bool | None = True) -> Rel
 
 
 def judged(
-    finding: Finding, request: Request, gap: tuple[float, float], kept: bool | None = None
+    finding: Figures, request: Request, gap: tuple[float, float], kept: bool | None = None
 ) -> Judgement:
     """gap: bounds of the gap; (0, 0): the bodies overlap within the touch band. kept: whether the
     gap keeps the clearance, if that is known more exactly than by the bounds."""
@@ -122,7 +138,7 @@ def quality_of(depth_bounds: Interval | None, distance_bounds: Interval | None) 
 
 
 def _by_default(
-    finding: Finding, request: Request, gap: tuple[float, float], kept: bool | None
+    finding: Figures, request: Request, gap: tuple[float, float], kept: bool | None
 ) -> Judgement:
     """Judge without the severity that a rule sets for the pair."""
     if finding.relation in OVERLAPS:
@@ -133,7 +149,7 @@ def _by_default(
     return close or Judgement("note" if finding.relation == "touching" else "none")
 
 
-def _limited(finding: Finding, request: Request) -> Judgement:
+def _limited(finding: Figures, request: Request) -> Judgement:
     """Return whether the overlap is within all limits, beyond one, or undecided."""
     limits = list(_limits(finding, request))
     for limit in limits:
@@ -171,7 +187,7 @@ class _Limit(Struct, frozen=True):
         return f"{known}, and the {figure} is between {self.least:.6g} and {self.greatest:.6g}"
 
 
-def _limits(finding: Finding, request: Request) -> Iterator[_Limit]:
+def _limits(finding: Figures, request: Request) -> Iterator[_Limit]:
     volume, error = finding.volume, finding.volume_error
     figures: dict[str, tuple[float | None, float | None]] = {
         "max_depth": finding.depth_bounds or (None, None),

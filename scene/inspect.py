@@ -78,10 +78,10 @@ def mesh_file(
 ) -> MeshFile:
     """Inspect a mesh of a file.
 
-    raw: the mesh as read. mesh: a piece of it; None: all. part: its name in the file. placed: the
-    file itself places it. Raises what `ErrorsOf` takes.
+    raw: the mesh as read. mesh: a piece of it, or all of it, in place of its bytes; None: all.
+    part: its name in the file. placed: the file itself places it. Raises what `ErrorsOf` takes.
     """
-    if not raw.triangles:
+    if not (raw.triangles if mesh is None else mesh.triangle_count):
         vertices = len(raw.vertices) // 24
         has = f"{vertices} vertices but" if vertices else "no vertices and"
         raise Refused("empty-mesh", f"empty mesh: {has} no triangles")

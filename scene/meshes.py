@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
+from itertools import combinations
+from operator import mul
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
+from satcheck import core
 from satcheck.core.errors import SatcheckError
-from satcheck.core.mesh_arrays import MeshLike, arrays_of, numbers, refused, require_finite
+from satcheck.core.mesh_arrays import (
+    MeshLike,
+    arrays_of,
+    numbers,
+    refused,
+    require_finite,
+    require_usable,
+)
 from satcheck.core.transform import Transform
 from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
 from satcheck.scene.document import NumberFormat, RawMesh
@@ -27,6 +38,7 @@ if TYPE_CHECKING:
 # Entries of a rotation stored as float32 are off by up to 2**-24. A product of about thirty such
 # rotations is off by less than this. The pose itself is applied as given.
 RIGID_TOLERANCE = 1e-5
+INDICES = ("<i4", "<i8", "<u4")  # what the core takes
 NUMBER_FORMATS: dict[int, NumberFormat] = {2: "float16", 4: "float32"}  # by size in bytes
 
 
@@ -141,13 +153,16 @@ def _body(id_: str, mesh: MeshLike, pose: ArrayLike | None) -> Body:
 
 
 def _mesh_file(id_: str, vertices: Array, faces: Array) -> MeshFile:
-    raw = RawMesh(
-        vertices.astype("<f8", order="C", copy=False).data.cast("B"),
-        faces.astype("<u4", order="C", copy=False).data.cast("B"),
-        _number_format(vertices),
-    )
-    with ErrorsOf(id_):
-        return mesh_file(File("memory", "", "", b"", path=id_), raw)
+    indices = faces.astype(faces.dtype if faces.dtype.str in INDICES else "<i8", "C", copy=False)
+    raw = RawMesh(b"", b"", _number_format(vertices))
+    try:
+        with ErrorsOf(id_):
+            mesh = core.Mesh(vertices.astype("<f8", "C", copy=False), indices)
+            return mesh_file(File("memory", "", "", b"", path=id_), raw, mesh)
+    except Refused as error:
+        lost = error
+    require_usable(vertices, faces)  # which row is wrong
+    raise lost
 
 
 def _number_format(values: Array) -> NumberFormat:
@@ -161,24 +176,24 @@ def _transform(matrix: Array) -> Transform | None:
     if matrix.shape != (4, 4):
         raise refused(f"pose: a 4x4 matrix, got shape {matrix.shape}")
     require_finite(matrix, "pose")
-    entries = tuple(map(float, matrix.ravel()))
+    entries = tuple(map(float, matrix.ravel().tolist()))
     if entries[12:] != (0.0, 0.0, 0.0, 1.0):
         row = ", ".join(f"{entry:g}" for entry in entries[12:])
         hint = " (is it transposed?)" if entries[3::4] == (0.0, 0.0, 0.0, 1.0) else ""
         raise refused(f"pose: the last row is ({row}), not (0, 0, 0, 1){hint}")
-    _require_rigid(matrix[:3, :3].astype("<f8"))
+    _require_rigid([entries[axis:12:4] for axis in range(3)])
     return None if entries == IDENTITY else entries
 
 
-def _require_rigid(rotation: NDArray[np.float64]) -> None:
-    import numpy as np
-
-    lengths = np.linalg.norm(rotation, axis=0)
-    unit = rotation / np.where(lengths > 0.0, lengths, 1.0)
-    if np.abs(unit.T @ unit - np.diag(lengths > 0.0)).max() > RIGID_TOLERANCE:
+def _require_rigid(axes: Sequence[tuple[float, ...]]) -> None:
+    """axes: the columns of the rotation."""
+    lengths = [math.hypot(*axis) for axis in axes]
+    unit = [[x / (length or 1.0) for x in axis] for axis, length in zip(axes, lengths, strict=True)]
+    if any(abs(sum(map(mul, u, v))) > RIGID_TOLERANCE for u, v in combinations(unit, 2)):
         raise refused("pose: not rigid: it shears: its axes are not at right angles")
-    if np.abs(lengths - 1.0).max() > RIGID_TOLERANCE:
+    if any(abs(length - 1.0) > RIGID_TOLERANCE for length in lengths):
         factors = ", ".join(f"{length:.6g}" for length in lengths)
         raise refused(f"pose: not rigid: it scales by ({factors}); scale the vertices instead")
-    if np.linalg.det(rotation) < 0:
+    (a, b, c), (d, e, f), (g, h, i) = axes
+    if a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) < 0:
         raise refused("pose: not rigid: it mirrors")

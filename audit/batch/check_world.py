@@ -15,11 +15,11 @@ from satcheck.audit.check import check
 from satcheck.audit.messages import with_messages
 from satcheck.audit.settings import Settings
 from satcheck.audit.stated_places import with_stated_places
-from satcheck.audit.summary import tool
+from satcheck.audit.summary import empty_report
 from satcheck.core.errors import SatcheckError
 from satcheck.core.steps import Loss, not_for_lack_of_memory, step
 from satcheck.report.assets import Asset, asset
-from satcheck.report.report import INTERNAL_ERROR, RELATIONS, Issue, PairCounts, Report, Summary
+from satcheck.report.report import INTERNAL_ERROR, Issue, Report
 from satcheck.scene import Refused, Scene
 from satcheck.scene.foreign_formats import foreign_scene, is_foreign
 from satcheck.scene.mesh_files import KnownMeshes
@@ -73,18 +73,7 @@ def _line_of(error: SatcheckError) -> int | None:
 
 
 def _without_bodies(issues: Sequence[Issue]) -> Report:
-    none = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
-    nothing_known = Summary("incomplete", none, dict.fromkeys(RELATIONS, 0))
-    report = Report(
-        tool=tool(),
-        units=None,
-        settings=Settings().stated(depth=False, thickness=False),
-        summary=nothing_known,
-        bodies=(),
-        findings=(),
-        issues=tuple(issues),
-    )
-    return with_messages(report)
+    return with_messages(empty_report(Settings().stated(depth=False, thickness=False), issues))
 
 
 def lost_asset(file: str, loss: Loss) -> Asset:

@@ -123,7 +123,8 @@ def open_hole(pair: Pair, hole: core.OpenHole) -> str:
 def _climb(pair: Pair, last: Rung | None = None) -> core.Climb:
     """Climb with one pair as far as the settings allow. Raises what making its bodies raises."""
     last = "aabb" if pair.curved else last or LAST[pair.settings.accuracy]
-    return core.climb(_question(pair), "aabb", last, pair.settings.method, pair.steps)
+    method, steps = pair.settings.method, pair.steps
+    return core.climb(_question(pair), "aabb", last, method, steps, pair.alone)
 
 
 def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.Climb | None]]:
@@ -134,16 +135,9 @@ def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.
     again.
     """
     plain = [k for k, pair in enumerate(pairs) if not pair.curved]
-    last = LAST[pairs[0].settings.accuracy]
-    alone = len(pairs) == 1 and pairs[0].alone
-    climbing = core.Climbing(
-        [_question(pairs[k]) for k in plain],
-        last,
-        threads,
-        alone,
-        pairs[0].settings.method,
-        pairs[0].steps,
-    )
+    settings, steps = pairs[0].settings, pairs[0].steps
+    questions = [_question(pairs[k]) for k in plain]
+    climbing = core.Climbing(questions, LAST[settings.accuracy], threads, settings.method, steps)
     if len(plain) == len(pairs):
         return climbing.results
 

@@ -219,9 +219,13 @@ def _json(path: str, text: str) -> tuple[Any, bool]:
 def lines_of(text: str, wanted: Iterable[Keys], *, toml: bool) -> Mapping[Keys, int]:
     """The lines, from 1, of these keys and of all around them, as far as the text states them.
 
-    Raises ValueError or IndexError for a text that is no such document.
+    Raises ValueError or IndexError for a text of several lines that is no such document.
     """
-    around = {keys[:count] for keys in wanted for count in range(len(keys) + 1)}
+    around = parents = set(wanted)
+    while parents := {keys[:-1] for keys in parents if keys}:
+        around |= parents
+    if "\n" not in text:  # as programs write large scenes
+        return dict.fromkeys(around, 1)
     outer = all(len(keys) < 2 or (len(keys) == 2 and isinstance(keys[1], int)) for keys in around)
     lines: dict[Keys, int] = {(): 1}
     line, counted = 1, 0

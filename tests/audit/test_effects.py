@@ -54,9 +54,14 @@ class Counter:
 
 
 def climbs_of(patch: pytest.MonkeyPatch) -> list[core.Climb | None]:
-    """What all climbs of many pairs find, as they find it."""
+    """What all climbs find, of many pairs and of a lone one, as they find it."""
     kept: list[core.Climb | None] = []
-    original = core.Climbing
+    original, alone = core.Climbing, core.climb
+
+    def climb(*args: Any) -> core.Climb:
+        found = alone(*args)
+        kept.append(found)
+        return found
 
     class Climbing:
         def __init__(self, *args: Any, **keys: Any) -> None:
@@ -67,6 +72,7 @@ def climbs_of(patch: pytest.MonkeyPatch) -> list[core.Climb | None]:
             kept.extend(climbs)
             return climbs
 
+    patch.setattr(core, "climb", climb)
     patch.setattr(core, "Climbing", Climbing)
     return kept
 

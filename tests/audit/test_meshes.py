@@ -40,6 +40,27 @@ def test_a_gap_is_measured_up_to_the_clearance() -> None:
     assert (near.relation, near.distance) == ("near", 1.0)
 
 
+@pytest.mark.parametrize("x", [0.0, 1.5, 2.0, 3.0, 2e45])
+@pytest.mark.parametrize(
+    "settings",
+    [
+        Settings(),
+        Settings(depth=False, list_pruned=True),
+        Settings(distance=True, fail_on="note"),
+        Settings(clearance=1.5),
+        Settings(max_depth=0.25),
+        Settings(accuracy="hull", tolerance=0.75),
+        Settings(volume=True, contacts=True),
+        Settings(planar="xy"),
+    ],
+)
+def test_a_finding_is_that_of_the_report_of_both(x: float, settings: Settings) -> None:
+    poses = {"b": moved(x)}
+    report = check(scene_of_meshes({"a": CUBE, "b": KETTLE}, poses), settings)
+    finding = check_meshes(CUBE, KETTLE, pose_b=poses["b"], settings=settings)
+    assert [finding.to_dict(timings=False)] == report.to_dict(timings=False)["findings"]
+
+
 def test_a_finding_comes_even_when_a_report_would_leave_it_out() -> None:
     settings = Settings(list_pruned=False)
     assert check_meshes(CUBE, CUBE, pose_b=moved(9.0), settings=settings).relation == "separated"

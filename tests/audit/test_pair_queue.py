@@ -70,11 +70,11 @@ def found(monkeypatch):
     """What an examination makes of each of these pairs."""
 
     def by(pairs, examine, jobs=1, **options):
-        def examined(pair, climb):
-            result = examine(pair) if climb is pair else None
+        def examined(pair, climb=None):  # a pair that is examined alone climbs then
+            result = examine(pair) if climb is None or climb is pair else None
             return result if isinstance(result, FakeChecked) else FakeChecked(result)
 
-        monkeypatch.setattr(checked_pairs, "_examine", examined)
+        monkeypatch.setattr(checked_pairs, "examine_pair", examined)
         return [checked.result for checked in examine_pairs(pairs, jobs, **options)]
 
     return by

@@ -197,6 +197,8 @@ SHEAR = with_entry(0, 1, 0.1)
         (np.diag([2, 2, 2, 1]), r"not rigid: it scales by \(2, 2, 2\); scale the vertices"),
         (np.diag([1, 1, 1.0001, 1]), r"not rigid: it scales by \(1, 1, 1.0001\)"),
         (np.diag([1, 1, 0, 1]), r"not rigid: it scales by \(1, 1, 0\)"),
+        (np.diag([1e300, 1, 1, 1]), r"not rigid: it scales by \(1e\+300, 1, 1\)"),
+        (with_entry(0, 1, 1e200), "not rigid: it shears"),
         (np.diag([1, 1, -1, 1]), "not rigid: it mirrors"),
     ],
 )

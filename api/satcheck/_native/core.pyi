@@ -448,6 +448,7 @@ def climb(
     last: Rung = "triangles",
     method: str = "auto",
     steps: int = ...,
+    alone: bool = False,
 ) -> Climb: ...
 
 class Climbing:
@@ -456,7 +457,6 @@ class Climbing:
         pairs: list[Question],
         last: Rung = "triangles",
         threads: int = 0,
-        alone: bool = False,
         method: str = "auto",
         steps: int = ...,
     ) -> None: ...

@@ -42,7 +42,7 @@ Rung rung_from(const std::string& name) {
   throw std::invalid_argument("a rung is \"aabb\", \"obb\", \"hull\" or \"triangles\", not \"" + name + "\"");
 }
 
-ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone = false, std::uint64_t steps = kNoEnd) {
+ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone, std::uint64_t steps) {
   const auto& [a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance] = pair;
   if (!a || !b) throw std::invalid_argument("a pair lacks a body");
   return {a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance, alone, method, steps};
@@ -192,14 +192,13 @@ nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, tria
 // A batch on its way up, in threads of its own; on one thread it climbs when its result is taken.
 class Climbing {
  public:
-  Climbing(const nb::list& pairs, const std::string& last, unsigned threads, bool alone, const std::string& method,
-           std::uint64_t steps) {
+  Climbing(const nb::list& pairs, const std::string& last, unsigned threads, const std::string& method, std::uint64_t steps) {
     const MethodChoice choice = method_from(method);
     std::vector<ClimbRequest> requests;
     requests.reserve(pairs.size());
     for (const nb::handle pair : pairs) {
       pairs_.push_back(nb::tuple(pair));
-      requests.push_back(request_from(nb::cast<PairTuple>(pairs_.back()), choice, alone, steps));
+      requests.push_back(request_from(nb::cast<PairTuple>(pairs_.back()), choice, false, steps));
     }
     // Deferred climbs run in the thread that takes the results, where signals arrive.
     const auto poll = [this, deferred = threads == 1](const SearchState&) {
@@ -278,22 +277,21 @@ A pair is (a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance). A clim
 beyond gap_limit, or at the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band.
 depth_a, depth_b: a point deeper than that in A and in B shows an overlap that no tolerance of the surfaces explains.
 wants_distance: measure every gap. threads: 0: one a core; on one thread the pairs climb when the results are taken.
-alone: there is one pair, and no other needs its bodies. method: between convex hulls, as in check_pairs. steps: the
-most of each pair.)")
-      .def(nb::init<const nb::list&, const std::string&, unsigned, bool, const std::string&, std::uint64_t>(), "pairs"_a,
-           "last"_a = "triangles", "threads"_a = 0, "alone"_a = false, "method"_a = "auto", "steps"_a = kNoEnd)
+method: between convex hulls, as in check_pairs. steps: the most of each pair.)")
+      .def(nb::init<const nb::list&, const std::string&, unsigned, const std::string&, std::uint64_t>(), "pairs"_a,
+           "last"_a = "triangles", "threads"_a = 0, "method"_a = "auto", "steps"_a = kNoEnd)
       .def("results", &Climbing::results,
            R"(Waits, then returns the results, only once: a Climb for each pair, the same for any number of threads; None: the climb
 failed, and climb() raises for this pair.)");
   m.def("climb",
-        [](const nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>& pair, const std::string& first, const std::string& last, const std::string& method, std::uint64_t steps) {
-          const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method), false, steps);
+        [](const nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>& pair, const std::string& first, const std::string& last, const std::string& method, std::uint64_t steps, bool alone) {
+          const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method), alone, steps);
           const Rung from = rung_from(first), to = rung_from(last);
           const nb::gil_scoped_release release;
           return climb(request, from, to, interrupting());
         },
-        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto", "steps"_a = kNoEnd,
-        "One pair of Climbing, from the rung `first` on.");
+        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto", "steps"_a = kNoEnd, "alone"_a = false,
+        "One pair of Climbing, from the rung `first` on. alone: no other pair needs its bodies.");
   m.def("hull_depth", [](PlacedGeometry& a, PlacedGeometry& b, bool alone) {
           return hull_depth(a, b, alone, Budget::that_stops(kNoEnd, interrupting()));
         },
