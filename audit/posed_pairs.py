@@ -17,13 +17,12 @@ from numpy.typing import NDArray
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody, world_bounds
-from satcheck.audit.finding import deep_overlap, open_by_fill
-from satcheck.audit.pair import Pair
+from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.core.conventions import Vector
 from satcheck.core.steps import is_careful
 from satcheck.report.judge import Judgement, by_rule
-from satcheck.report.report import SEVERITIES, Finding
-from satcheck.scene.bodies import IDENTITY
+from satcheck.report.report import SEVERITIES
+from satcheck.scene.bodies import IDENTITY, resolution_in_world
 from satcheck.scene.half_spaces import holds, reach_in_world
 
 if TYPE_CHECKING:
@@ -36,6 +35,9 @@ OPEN, APART, DEEP, UNDECIDED = 0, 1, 2, 3
 # The stretch of the placement of a link differs from pose to pose by less than this factor.
 _TURNED = 1 + 1e-9
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
+# Of the diagonal of the box of a body in one pose. Its box in any pose has a diagonal of at least
+# 1 / sqrt(3) of that, so that `TOUCH_FRACTION` does not limit a tolerance below this.
+_PLAINLY_FINE = 0.5 * TOUCH_FRACTION
 
 Numbers = NDArray[np.float64]
 Codes = NDArray[np.uint8]
@@ -102,18 +104,50 @@ class PosedPairs:
         step = (3 * stretch * body.shared.largest + farthest) * file.placement_step
         return file.resolution * stretch + step
 
-    def proven(
-        self, matrices: Numbers, row: int, number: int, code: int, pair: Pair
-    ) -> Finding | None:
-        """Return the finding of a sorted pair in one of the poses, if the sort proves all of it.
-        pair: as placed there."""
+    def deep_tolerances(
+        self, matrices: Numbers, rows: Sequence[int], numbers: Sequence[int]
+    ) -> list[float | None]:
+        """Return of pairs that are DEEP in these poses the tolerance there, if the sort proves all
+        that a finding has: no figure is asked for, and neither body holds the other."""
+        tolerances: list[float | None] = []
+        at: dict[tuple[int, int], float] = {}
+        cases = []
+        for row, number in zip(rows, numbers, strict=True):
+            tolerance = self._tolerance(matrices, row, number, at)
+            tolerances.append(tolerance)
+            a, b = self._places[number]
+            cases.append((row, a, b, inf if tolerance is None else tolerance))
+        holds = core.neither_holds([body.posed for body in self._bodies], cases, matrices)
+        return [t if proven else None for t, proven in zip(tolerances, holds, strict=True)]
+
+    def _tolerance(
+        self, matrices: Numbers, row: int, number: int, at: dict[tuple[int, int], float]
+    ) -> float | None:
+        """Return the tolerance of a pair in one of the poses; None: a finding has more, or only the
+        placed bodies say. at: the resolutions of bodies in these poses."""
+        pair = self.pairs[number]
+        asked = pair.request.tolerance
+        if pair.on_half_space or not pair.request.by.keys() <= {"overlap", "distance"}:
+            return None
+        if asked is not None:
+            return asked
+        for k in self._places[number]:
+            if (row, k) not in at:
+                body = _moved(self._bodies[k].body, matrices[row, k])
+                largest = self._bodies[k].shared.largest
+                at[row, k] = resolution_in_world(body.file, body.transform, largest)
+        a, b = self._places[number]
+        written = at[row, a] + at[row, b]
+        if written > _PLAINLY_FINE * min(pair.a.diagonal, pair.b.diagonal):
+            return None
+        return max(written, pair.a.body.file.deviation + pair.b.body.file.deviation)
+
+    def hole(self, matrices: Numbers, row: int, number: int) -> core.OpenHole | None:
+        """Return the hole that leaves a pair UNDECIDED in one of the poses; None: a climb has to
+        find it."""
         a, b = self._places[number]
         of_a, of_b = self._bodies[a].posed, self._bodies[b].posed
-        sides = of_a, matrices[row, a], of_b, matrices[row, b]
-        if code == DEEP and pair.request.by.keys() <= {"overlap", "distance"}:
-            return deep_overlap(pair) if core.neither_holds(*sides, pair.tolerance) else None
-        hole = core.open_hole(*sides) if code == UNDECIDED else None
-        return None if hole is None else open_by_fill(pair, hole)
+        return core.open_hole(of_a, matrices[row, a], of_b, matrices[row, b])
 
     def at(
         self,

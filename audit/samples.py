@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from satcheck.audit.bodies import place
 from satcheck.audit.check import DEFAULT_SETTINGS, volume_meter
 from satcheck.audit.checked_pairs import examine_pairs
+from satcheck.audit.finding import deep_overlap, open_by_fill
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs, same_way
@@ -72,7 +73,7 @@ def check_poses(
     if not poses:
         raise ValueError("no pose to check")
     settings = replace(settings, list_pruned=False, depth=settings.depth or False)
-    results = SampleResults(settings, lists_all=len(poses) <= LISTED_SAMPLES)
+    results = SampleResults(scene, settings, lists_all=len(poses) <= LISTED_SAMPLES)
     batches = pose_batches(scene, poses, BATCH)
     first = next(batches)  # all poses are judged before work is done
     pairs, batches = _sortable(results, first), chain((first,), batches)
@@ -156,6 +157,7 @@ class _SortedBatch:
         self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
         self._find((self._sorted == OPEN) | _first_undecided(self._sorted))
         listed = self._listed()
+        self._find_deep((self._sorted == DEEP) & listed[:, None])
         self._find(self._noted & listed[:, None])
         verdicts = self._verdicts()
         listed[list(self._alone)] = True
@@ -163,12 +165,13 @@ class _SortedBatch:
             if row in self._alone:
                 self._results.add(self._batch, row)
             else:
-                found, posture = self._findings(row), self._batch.posture(row)
+                found = self._findings(row)
                 issues = (
-                    Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues
+                    Issue(i.code, i.severity, i.body, i.file, i.message)
+                    for i in self._batch.issues(row)
                 )
                 self._results.listed.append(
-                    self._results.sample(self._batch, row, posture, verdicts[row], found, issues)
+                    self._results.sample(self._batch, row, verdicts[row], found, issues)
                 )
         return self._batch
 
@@ -181,6 +184,19 @@ class _SortedBatch:
         listed = np.zeros(self._batch.count, bool)
         listed[np.flatnonzero(noted)[: self._results.room]] = True
         return listed
+
+    def _find_deep(self, asked: NDArray[np.bool_]) -> None:
+        """Makes the findings of deep overlaps that the sort proves."""
+        findings: dict[int, Finding] = {}
+        rows, numbers = (indices.tolist() for indices in np.nonzero(asked))
+        margins = self._pairs.deep_tolerances(self._matrices, rows, numbers)
+        for row, number, tolerance in zip(rows, numbers, margins, strict=True):
+            if tolerance is None:
+                continue
+            if number not in findings:
+                findings[number] = self._results.told(deep_overlap(self._pairs.pairs[number]))
+            found = replace(findings[number], tolerance=tolerance)
+            self._found.setdefault(row, {})[number] = found
 
     def _find(self, asked: NDArray[np.bool_]) -> None:
         """Makes the findings of these pairs, of shape (poses, pairs)."""
@@ -195,11 +211,11 @@ class _SortedBatch:
                 continue
             for number, pair in zip(numbers, pairs, strict=True):
                 code = int(self._sorted[row, number])
-                finding = self._pairs.proven(self._matrices, row, number, code, pair)
-                if finding is None:
+                hole = self._pairs.hole(self._matrices, row, number) if code == UNDECIDED else None
+                if hole is None:
                     climbing.append((row, number, pair))
                 else:
-                    found[number] = finding
+                    found[number] = self._results.told(open_by_fill(pair, hole))
             if len(climbing) >= TOGETHER:
                 self._climb(climbing)
                 climbing = []
@@ -209,7 +225,7 @@ class _SortedBatch:
         pairs = [pair for *_, pair in climbing]
         checked = examine_pairs(pairs, self._results.settings.jobs)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
-            self._found[row][number] = pair.finding
+            self._found[row][number] = self._results.told(pair.finding)
             self._results.issues |= dict.fromkeys(pair.issues)
 
     def _findings(self, row: int) -> tuple[Finding, ...]:

@@ -53,14 +53,20 @@ using Matrices = nb::ndarray<const double, nb::shape<-1, -1, 12>, nb::c_contig, 
 using Margins = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 using Matrix12 = nb::ndarray<const double, nb::shape<12>, nb::c_contig, nb::device::cpu>;
 using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
+using DeepTuple = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, double>;
 using Sifting = std::vector<Sifted>;
+
+std::vector<PosedBody*> bodies_of(const nb::tuple& held, const Matrices& matrices) {
+  std::vector<PosedBody*> bodies;
+  if (!nb::try_cast(held, bodies)) throw nb::type_error("bodies: a sequence of PosedBody expected");
+  if (matrices.shape(1) != bodies.size()) throw std::invalid_argument("a pose needs a matrix for each body");
+  return bodies;
+}
 
 nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<PairTuple>& pairs,
                     const Matrices& matrices, unsigned threads, const std::optional<Margins>& margins) {
   const nb::tuple held(given);
-  std::vector<PosedBody*> bodies;
-  if (!nb::try_cast(held, bodies)) throw nb::type_error("bodies: a sequence of PosedBody expected");
-  if (matrices.shape(1) != bodies.size()) throw std::invalid_argument("a pose needs a matrix for each body");
+  const std::vector<PosedBody*> bodies = bodies_of(held, matrices);
   if (margins && (margins->shape(0) != matrices.shape(0) || margins->shape(1) != pairs.size())) {
     throw std::invalid_argument("a pair needs a margin in each pose");
   }
@@ -80,14 +86,25 @@ nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::
   return nb::cast(nb::ndarray<nb::numpy, const std::uint8_t>(values, {matrices.shape(0), pairs.size()}, owner));
 }
 
+std::vector<bool> neither_holds_in(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<DeepTuple>& pairs,
+                                   const Matrices& matrices) {
+  const nb::tuple held(given);
+  const std::vector<PosedBody*> bodies = bodies_of(held, matrices);
+  std::vector<DeepPair> deep;
+  for (const auto& [pose, a, b, margin] : pairs) {
+    if (pose >= matrices.shape(0)) throw std::invalid_argument("the number of a pose is out of range");
+    if (a >= bodies.size() || b >= bodies.size()) throw std::invalid_argument("the number of a body is out of range");
+    deep.push_back({pose, a, b, margin});
+  }
+  const nb::gil_scoped_release release;
+  return neither_holds(bodies, deep, matrices.data());
+}
+
 void bind_listed(nb::module_& m) {
-  m.def(
-      "neither_holds",
-      [](PosedBody& a, const Matrix12& at_a, PosedBody& b, const Matrix12& at_b, double margin) {
-        return neither_holds(a, at_a.data(), b, at_b.data(), margin);
-      },
-      "a"_a, "matrix_a"_a.noconvert(), "b"_a, "matrix_b"_a.noconvert(), "margin"_a,
-      "Whether each of two bodies in a pose is proven to reach out of the other one by more than the margin.");
+  m.def("neither_holds", &neither_holds_in, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(),
+        R"(Whether each of two bodies in a pose is proven to reach out of the other one by more than a margin.
+
+pairs: (pose, i, j, margin) each, of the numbers of a pose and of two bodies. bodies, matrices: as in `sift`.)");
   m.def(
       "open_hole",
       [](PosedBody& a, const Matrix12& at_a, PosedBody& b, const Matrix12& at_b) {

@@ -254,9 +254,16 @@ class PoseSifter {
 
 }  // namespace
 
-bool neither_holds(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b, double margin) {
-  const PosedPlace at_a = place_at(a, matrix_a), at_b = place_at(b, matrix_b);
-  return sticks_out(a, at_a, b, at_b, margin) && sticks_out(b, at_b, a, at_a, margin);
+std::vector<bool> neither_holds(const std::vector<PosedBody*>& bodies, const std::vector<DeepPair>& pairs,
+                                const double* matrices) {
+  std::vector<bool> results;
+  for (const auto& [pose, i, j, margin] : pairs) {
+    PosedBody &a = *bodies[i], &b = *bodies[j];
+    const double* rows = matrices + 12 * bodies.size() * pose;
+    const PosedPlace at_a = place_at(a, rows + 12 * i), at_b = place_at(b, rows + 12 * j);
+    results.push_back(sticks_out(a, at_a, b, at_b, margin) && sticks_out(b, at_b, a, at_a, margin));
+  }
+  return results;
 }
 
 std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b) {

@@ -35,8 +35,15 @@ struct SiftedPair {
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
                          const double* matrices, const double* margins, std::size_t poses, unsigned threads);
 
-// Of a pair that is deep in this pose: whether each body reaches out of the other one by more than `margin`.
-bool neither_holds(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b, double margin);
+// A pair that is deep in one of the poses.
+struct DeepPair {
+  std::uint32_t pose, a, b;
+  double margin;
+};
+
+// Whether each body of a pair reaches out of the other one by more than the margin.
+std::vector<bool> neither_holds(const std::vector<PosedBody*>& bodies, const std::vector<DeepPair>& pairs,
+                                const double* matrices);
 
 // Of a pair that is undecided in this pose: the hole that a climb names. Empty if only the climb can tell.
 std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b);
