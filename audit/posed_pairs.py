@@ -17,17 +17,19 @@ from numpy.typing import NDArray
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody, world_bounds
+from satcheck.audit.finding import open_by_fill
 from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.core.conventions import Vector
 from satcheck.core.steps import is_careful
 from satcheck.report.judge import Judgement, by_rule
-from satcheck.report.report import SEVERITIES
+from satcheck.report.report import SEVERITIES, Finding
 from satcheck.scene.bodies import IDENTITY, resolution_in_world
 from satcheck.scene.half_spaces import holds, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.audit.settings import Settings
     from satcheck.core.peers import VolumeMeter
+    from satcheck.core.transform import Transform
     from satcheck.scene import Body, Scene
 
 # How the core sorts a pair.
@@ -133,21 +135,23 @@ class PosedPairs:
             return asked
         for k in self._places[number]:
             if (row, k) not in at:
-                body = _moved(self._bodies[k].body, matrices[row, k])
+                body = self._bodies[k].body
+                transform = _transform_at(body, matrices[row, k])
                 largest = self._bodies[k].shared.largest
-                at[row, k] = resolution_in_world(body.file, body.transform, largest)
+                at[row, k] = resolution_in_world(body.file, transform, largest)
         a, b = self._places[number]
         written = at[row, a] + at[row, b]
         if written > _PLAINLY_FINE * min(pair.a.diagonal, pair.b.diagonal):
             return None
         return max(written, pair.a.body.file.deviation + pair.b.body.file.deviation)
 
-    def hole(self, matrices: Numbers, row: int, number: int) -> core.OpenHole | None:
-        """Return the hole that leaves a pair UNDECIDED in one of the poses; None: a climb has to
-        find it."""
+    def by_fill(self, matrices: Numbers, row: int, number: int) -> Finding | None:
+        """Return the finding of a pair that is UNDECIDED in one of the poses; None: a climb has to
+        find the hole."""
         a, b = self._places[number]
         of_a, of_b = self._bodies[a].posed, self._bodies[b].posed
-        return core.open_hole(of_a, matrices[row, a], of_b, matrices[row, b])
+        hole = core.open_hole(of_a, matrices[row, a], of_b, matrices[row, b])
+        return None if hole is None else open_by_fill(self.pairs[number], hole)
 
     def at(
         self,
@@ -183,8 +187,13 @@ def ball_around(body: PlacedBody) -> tuple[Vector, float]:
 
 
 def _moved(body: Body, rows: Numbers) -> Body:
+    transform = _transform_at(body, rows)
+    return body if transform is body.transform else replace(body, transform=transform)
+
+
+def _transform_at(body: Body, rows: Numbers) -> Transform | None:
     transform = (*rows.tolist(), *_LAST_ROW)
-    return body if transform == (body.transform or IDENTITY) else replace(body, transform=transform)
+    return body.transform if transform == (body.transform or IDENTITY) else transform
 
 
 def same_way(scene: Scene, settings: Settings, bodies: PlacedBodies) -> bool:

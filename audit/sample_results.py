@@ -13,6 +13,7 @@ from satcheck.audit.body import SharedMesh
 from satcheck.audit.check import check
 from satcheck.audit.messages import finding_message
 from satcheck.audit.settings import Settings
+from satcheck.core.transform import Transform
 from satcheck.report.report import Finding, Issue, Report, Verdict
 from satcheck.report.samples import (
     SampledBody,
@@ -49,6 +50,7 @@ class SampleResults:
         self.listed: list[SampledPose] = []
         self.issues: dict[Issue, None] = {}
         self._tallies: dict[tuple[str, str], SampledPair] = {}
+        self._placed: dict[str, Transform | None] = {}
 
     @property
     def room(self) -> int:
@@ -61,7 +63,9 @@ class SampleResults:
     def check(self, batch: PoseBatch, row: int) -> SampledPose:
         """Checks a pose as a scene of its own."""
         report = check(batch.posed(row), self.settings, cache=self.cache)
-        self.first = self.first or report
+        if self.first is None:
+            self.first = report
+            self._placed = {body.id: body.transform for body in report.bodies}
         posture = batch.posture(row)
         own = {(issue.code, issue.message) for issue in posture.issues}
         of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
@@ -85,14 +89,12 @@ class SampleResults:
     ) -> SampledPose:
         """Return a pose with its findings, of which none is plain, and with the placement of each
         body that does not stand as in the first sample."""
-        assert self.first is not None
         moved = {}
         if findings:
-            first = {body.id: body.transform for body in self.first.bodies}
             moved = {
                 body.id: transform or body.transform or IDENTITY
                 for body, transform in batch.transforms(row)
-                if (transform or body.transform) != first[body.id]
+                if (transform or body.transform) != self._placed[body.id]
             }
         stated = batch.stated(row)
         return SampledPose(batch.first + row, stated, verdict, findings, tuple(issues), moved)

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from satcheck.audit.bodies import place
 from satcheck.audit.check import DEFAULT_SETTINGS, volume_meter
 from satcheck.audit.checked_pairs import examine_pairs
-from satcheck.audit.finding import deep_overlap, open_by_fill
+from satcheck.audit.finding import deep_overlap
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs, same_way
@@ -135,7 +135,8 @@ def sorted_and_counted(
 
 class _SortedBatch:
     """Poses whose pairs the core has sorted. found: the findings of each pose so far, by the
-    numbers of the pairs. alone: poses that need a check of their own."""
+    numbers of the pairs, but for those of deep overlaps. alone: poses that need a check of their
+    own."""
 
     def __init__(
         self,
@@ -150,6 +151,7 @@ class _SortedBatch:
         self._matrices, self._sorting = matrices, sorting
         self._pairs, self._meter = pairs, meter
         self._found: dict[int, dict[int, Finding]] = {}
+        self._deep: dict[int, dict[int, Finding]] = {}
         self._alone: set[int] = set()
 
     def count(self) -> PoseBatch:
@@ -165,7 +167,7 @@ class _SortedBatch:
             if row in self._alone:
                 self._results.add(self._batch, row)
             else:
-                found = self._findings(row)
+                found = self._findings(row, deep=True)
                 issues = (
                     Issue(i.code, i.severity, i.body, i.file, i.message)
                     for i in self._batch.issues(row)
@@ -186,36 +188,40 @@ class _SortedBatch:
         return listed
 
     def _find_deep(self, asked: NDArray[np.bool_]) -> None:
-        """Makes the findings of deep overlaps that the sort proves."""
+        """Makes the findings of deep overlaps of which the sort proves all."""
         findings: dict[int, Finding] = {}
         rows, numbers = (indices.tolist() for indices in np.nonzero(asked))
-        margins = self._pairs.deep_tolerances(self._matrices, rows, numbers)
-        for row, number, tolerance in zip(rows, numbers, margins, strict=True):
+        tolerances = self._pairs.deep_tolerances(self._matrices, rows, numbers)
+        for row, number, tolerance in zip(rows, numbers, tolerances, strict=True):
             if tolerance is None:
                 continue
             if number not in findings:
                 findings[number] = self._results.told(deep_overlap(self._pairs.pairs[number]))
             found = replace(findings[number], tolerance=tolerance)
-            self._found.setdefault(row, {})[number] = found
+            self._deep.setdefault(row, {})[number] = found
 
     def _find(self, asked: NDArray[np.bool_]) -> None:
-        """Makes the findings of these pairs, of shape (poses, pairs)."""
+        """Makes the other findings of these pairs."""
         climbing: list[tuple[int, int, Pair]] = []
         for row in np.flatnonzero(asked.any(axis=1)).tolist():
             found = self._found.setdefault(row, {})
-            numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in found]
+            known = found.keys() | self._deep.get(row, {}).keys()
+            numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in known]
+            told = {
+                k: self._results.told(finding)
+                for k in numbers
+                if self._sorted[row, k] == UNDECIDED
+                and (finding := self._pairs.by_fill(self._matrices, row, k))
+            }
+            numbers = [k for k in numbers if k not in told or self._pairs.pairs[k].on_half_space]
             try:
                 pairs = self._pairs.at(self._matrices, row, numbers, self._meter)
             except (ValueError, OverflowError):  # the check of this pose says what is wrong
                 self._alone.add(row)
                 continue
-            for number, pair in zip(numbers, pairs, strict=True):
-                code = int(self._sorted[row, number])
-                hole = self._pairs.hole(self._matrices, row, number) if code == UNDECIDED else None
-                if hole is None:
-                    climbing.append((row, number, pair))
-                else:
-                    found[number] = self._results.told(open_by_fill(pair, hole))
+            found |= told
+            both = zip(numbers, pairs, strict=True)
+            climbing += [(row, k, pair) for k, pair in both if k not in told]
             if len(climbing) >= TOGETHER:
                 self._climb(climbing)
                 climbing = []
@@ -228,13 +234,15 @@ class _SortedBatch:
             self._found[row][number] = self._results.told(pair.finding)
             self._results.issues |= dict.fromkeys(pair.issues)
 
-    def _findings(self, row: int) -> tuple[Finding, ...]:
-        found = sorted(self._found.get(row, {}).items())
-        return tuple(finding for _, finding in found if not is_plain(finding))
+    def _findings(self, row: int, *, deep: bool = False) -> tuple[Finding, ...]:
+        found = self._found.get(row, {})
+        if deep:
+            found = found | self._deep.get(row, {})
+        return tuple(found[k] for k in sorted(found) if not is_plain(found[k]))
 
     def _verdicts(self) -> dict[int, Verdict]:
         """Return the verdict on each pose that needs no check of its own, all of them counted: by
-        their findings, and by the sort for pairs without one."""
+        their findings, and by the sort for deep overlaps and for pairs without one."""
         codes, results = self._sorted.copy(), self._results
         codes[list(self._alone)] = APART
         for row, found in self._found.items():

@@ -16,7 +16,8 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.bodies import IDENTITY, Body, Scene, Transform
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY, Body, Scene
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.kinematics import Numbers, link_frames, placements
 from satcheck.scene.robot.model import Joint, Robot, State, Values
