@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 # How the core sorts a pair.
 OPEN, APART, DEEP, UNDECIDED = 0, 1, 2, 3
+NO_END = 2**64 - 1  # steps
 # The stretch of the placement of a link differs from pose to pose by less than this factor.
 _TURNED = 1 + 1e-9
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
@@ -57,10 +58,17 @@ class PosedPairs:
         deep = [by_rule(Judgement("error"), pair.request).severity for pair in pairs]
         self.deep_fails = np.array([SEVERITIES.index(severity) <= least for severity in deep], bool)
 
-    def sift(self, matrices: Numbers, margins: Numbers | None = None) -> Codes:
+    def sift(self, matrices: Numbers) -> Codes:
         """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: as those of `PoseBatch`,
-        of all bodies. margins: of the shape of the result; pairs are APART only if they
-        are farther apart by this much, and those with NaN stay OPEN."""
+        of all bodies."""
+        return self.sift_within(matrices, None, NO_END)[0]
+
+    def sift_within(
+        self, matrices: Numbers, margins: Numbers | None, steps: int
+    ) -> tuple[Codes, int]:
+        """The same, and the steps that it took. margins: of the shape of the result; pairs are
+        APART only if they are farther apart by this much, and those with NaN stay OPEN. steps: the
+        most; beyond them pairs stay OPEN, too."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
         for pair, (a, b) in zip(self.pairs, self._places, strict=True):
@@ -77,10 +85,10 @@ class PosedPairs:
             crossing = inf if never or off or (closed and tolerance > 0) else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
         posed = [body.posed for body in self._bodies]
-        codes: Codes = core.sift(posed, bounds, matrices, self._settings.jobs, margins)
+        codes, spent = core.sift(posed, bounds, matrices, self._settings.jobs, margins, steps)
         if any(body.endless for body in self._bodies):
-            return self._open_beyond_reach(codes, matrices)
-        return codes
+            codes = self._open_beyond_reach(codes, matrices)
+        return codes, spent
 
     def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> Codes:
         """Opens pairs with a half space whose block does not stand for it there."""

@@ -360,7 +360,8 @@ def sift(
     matrices: NDArray[float64],
     threads: int = 0,
     margins: NDArray[float64] | None = None,
-) -> NDArray[uint8]: ...
+    steps: int = ...,
+) -> tuple[NDArray[uint8], int]: ...
 def neither_holds(
     bodies: Sequence[PosedBody],
     pairs: Sequence[tuple[int, int, int, float]],

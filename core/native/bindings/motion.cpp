@@ -63,8 +63,10 @@ std::vector<PosedBody*> bodies_of(const nb::tuple& held, const Matrices& matrice
   return bodies;
 }
 
-nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<PairTuple>& pairs,
-                    const Matrices& matrices, unsigned threads, const std::optional<Margins>& margins) {
+std::pair<nb::object, std::uint64_t> sift_all(const nb::typed<nb::sequence, PosedBody>& given,
+                                              const std::vector<PairTuple>& pairs, const Matrices& matrices,
+                                              unsigned threads, const std::optional<Margins>& margins,
+                                              std::uint64_t steps) {
   const nb::tuple held(given);
   const std::vector<PosedBody*> bodies = bodies_of(held, matrices);
   if (margins && (margins->shape(0) != matrices.shape(0) || margins->shape(1) != pairs.size())) {
@@ -76,14 +78,16 @@ nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::
     sifted.push_back({a, b, gap_limit, depth, crossing});
   }
   Sifting results;
+  Budget budget(steps);
   {
     const nb::gil_scoped_release release;
-    results = sift(bodies, sifted, matrices.data(), margins ? margins->data() : nullptr, matrices.shape(0), threads);
+    results = sift(bodies, sifted, matrices.data(), margins ? margins->data() : nullptr, matrices.shape(0), threads, &budget);
   }
   auto kept = std::make_unique<Sifting>(std::move(results));
   const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Sifting*>(p); });
   const auto* values = reinterpret_cast<const std::uint8_t*>(kept.release()->data());
-  return nb::cast(nb::ndarray<nb::numpy, const std::uint8_t>(values, {matrices.shape(0), pairs.size()}, owner));
+  const nb::ndarray<nb::numpy, const std::uint8_t> codes(values, {matrices.shape(0), pairs.size()}, owner);
+  return {nb::cast(codes), budget.spent()};
 }
 
 std::vector<bool> neither_holds_in(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<DeepTuple>& pairs,
@@ -172,13 +176,15 @@ in the closed mesh of the geometry `around`; the closed mesh of `within` lies in
                    "A ball that holds the body: its centre and its radius.");
   bind_listed(m);
   m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0, "margins"_a = nb::none(),
-        R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs): 1: the bodies are apart by more than the
+        "steps"_a = kNoEnd,
+        R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs), and the steps that it took. 1: the bodies are apart by more than the
 gap limit of the pair; 2: a point lies deeper in both than its depth, or no translation up to `crossing` ends the overlap;
 3: the fill of a hole decides whether they overlap; 0: none of this is proven.
 
 pairs: (i, j, gap_limit, depth, crossing) each, of the numbers of two bodies. matrices: float64 of shape (poses, bodies, 12), the
 upper three rows of each placement. margins: float64 of shape (poses, pairs), added to the gap limits; NaN: the pair is
-left at 0 in that pose. The arrays must not change during the call. The proofs hold for the vertices in the world, each coordinate rounded once. The
+left at 0 in that pose. steps: the most, shared evenly by blocks of poses; a pair is left at 0 where its block has none
+left. The arrays must not change during the call. The proofs hold for the vertices in the world, each coordinate rounded once. The
 result does not depend on the number of threads (0: one a core).)");
 }
 

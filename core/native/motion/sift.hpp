@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "motion/posed_body.hpp"
 
@@ -31,9 +32,11 @@ struct SiftedPair {
 
 // matrices: of each body in each pose, pose by pose, three rows of four numbers each. margins: for each pair in each
 // pose, added to its gap limit; NaN: the pair is left open there. Null: no margins. Returns a value for each pair in
-// each pose, pose by pose, the same for any number of threads (0: one a core).
+// each pose, pose by pose, the same for any number of threads (0: one a core). budget: shared evenly by blocks of poses;
+// pairs of a block that has spent its share are left open. Null: without an end.
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
-                         const double* matrices, const double* margins, std::size_t poses, unsigned threads);
+                         const double* matrices, const double* margins, std::size_t poses, unsigned threads,
+                         Budget* budget = nullptr);
 
 // A pair that is deep in one of the poses.
 struct DeepPair {
