@@ -87,7 +87,7 @@ def test_a_deepest_pose_takes_no_more_steps_than_the_sweep_may():
     assert deepest_pose(pair, 0.1) is not None
     taken = pair.pair.sweep_steps
     few = moving(unit_box(3, 2, 1), Translation((0.0, -0.75, 0.0)), bracket())
-    few.pair.steps, few.pair.sweep_steps = taken // 2, STEPS_OF_SWEEP
+    few.pair.steps, few.pair.sweep_steps = taken // 100, STEPS_OF_SWEEP
     assert deepest_pose(few, 0.1) is None
 
 
