@@ -44,6 +44,7 @@ _PLAINLY_FINE = 0.5 * TOUCH_FRACTION
 
 Numbers = NDArray[np.float64]
 Codes = NDArray[np.uint8]
+Flags = NDArray[np.bool_]
 
 
 class PosedPairs:
@@ -114,44 +115,42 @@ class PosedPairs:
         step = (3 * stretch * body.shared.largest + farthest) * file.placement_step
         return file.resolution * stretch + step
 
-    def deep_tolerances(
-        self, matrices: Numbers, rows: Sequence[int], numbers: Sequence[int]
-    ) -> list[float | None]:
-        """Return of pairs that are DEEP in these poses the tolerance there, if the sort proves all
-        that a finding has: no figure is asked for, and neither body holds the other."""
-        tolerances: list[float | None] = []
-        at: dict[tuple[int, int], float] = {}
-        cases = []
-        for row, number in zip(rows, numbers, strict=True):
-            tolerance = self._tolerance(matrices, row, number, at)
-            tolerances.append(tolerance)
-            a, b = self._places[number]
-            cases.append((row, a, b, inf if tolerance is None else tolerance))
-        holds = core.neither_holds([body.posed for body in self._bodies], cases, matrices)
-        return [t if proven else None for t, proven in zip(tolerances, holds, strict=True)]
+    def deep_tolerances(self, matrices: Numbers, asked: Flags) -> Numbers:
+        """Return the tolerances of these pairs, which are DEEP, shape (poses, pairs); NaN where the
+        sort does not prove all that a finding has: a figure is asked for, or one of the bodies may
+        hold the other."""
+        tolerances = np.full(asked.shape, np.nan)
+        resolutions = np.full(matrices.shape[:2], np.nan)
+        for k in np.flatnonzero(asked.any(axis=0)).tolist():
+            self._set_tolerances(tolerances[:, k], matrices, asked[:, k], k, resolutions)
+        rows, numbers = np.nonzero(~np.isnan(tolerances))
+        sides = np.array(self._places)[numbers]
+        columns = (rows, sides[:, 0], sides[:, 1], tolerances[rows, numbers])
+        cases = list(zip(*(column.tolist() for column in columns), strict=True))
+        proven = core.neither_holds([body.posed for body in self._bodies], cases, matrices)
+        tolerances[rows, numbers] = np.where(proven, tolerances[rows, numbers], np.nan)
+        return tolerances
 
-    def _tolerance(
-        self, matrices: Numbers, row: int, number: int, at: dict[tuple[int, int], float]
-    ) -> float | None:
-        """Return the tolerance of a pair in one of the poses; None: a finding has more, or only the
-        placed bodies say. at: the resolutions of bodies in these poses."""
-        pair = self.pairs[number]
-        asked = pair.request.tolerance
+    def _set_tolerances(
+        self, own: Numbers, matrices: Numbers, asked: Flags, number: int, resolutions: Numbers
+    ) -> None:
+        """Set the tolerances of a pair where they are asked for, and where it need not be placed.
+        resolutions: of bodies, shape (poses, bodies); NaN where they are not known yet."""
+        pair, sides = self.pairs[number], list(self._places[number])
         if pair.on_half_space or not pair.request.by.keys() <= {"overlap", "distance"}:
-            return None
-        if asked is not None:
-            return asked
-        for k in self._places[number]:
-            if (row, k) not in at:
-                body = self._bodies[k].body
+            return
+        if pair.request.tolerance is not None:
+            own[asked] = pair.request.tolerance
+            return
+        for k in sides:
+            body, largest = self._bodies[k].body, self._bodies[k].shared.largest
+            for row in np.flatnonzero(asked & np.isnan(resolutions[:, k])).tolist():
                 transform = _transform_at(body, matrices[row, k])
-                largest = self._bodies[k].shared.largest
-                at[row, k] = resolution_in_world(body.file, transform, largest)
-        a, b = self._places[number]
-        written = at[row, a] + at[row, b]
-        if written > _PLAINLY_FINE * min(pair.a.diagonal, pair.b.diagonal):
-            return None
-        return max(written, pair.a.body.file.deviation + pair.b.body.file.deviation)
+                resolutions[row, k] = resolution_in_world(body.file, transform, largest)
+        written = resolutions[:, sides[0]] + resolutions[:, sides[1]]
+        plain = asked & (written <= _PLAINLY_FINE * min(pair.a.diagonal, pair.b.diagonal))
+        deviation = pair.a.body.file.deviation + pair.b.body.file.deviation
+        own[plain] = np.maximum(written, deviation)[plain]
 
     def by_fill(self, matrices: Numbers, row: int, number: int) -> Finding | None:
         """Return the finding of a pair that is UNDECIDED in one of the poses; None: a climb has to

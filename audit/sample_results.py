@@ -66,8 +66,7 @@ class SampleResults:
         if self.first is None:
             self.first = report
             self._placed = {body.id: body.transform for body in report.bodies}
-        posture = batch.posture(row)
-        own = {(issue.code, issue.message) for issue in posture.issues}
+        own = {(issue.code, issue.message) for issue in batch.issues(row)}
         of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
         others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
         self.issues |= dict.fromkeys(others)

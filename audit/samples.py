@@ -159,8 +159,8 @@ class _SortedBatch:
         self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
         self._find((self._sorted == OPEN) | _first_undecided(self._sorted))
         listed = self._listed()
-        self._find_deep((self._sorted == DEEP) & listed[:, None])
-        self._find(self._noted & listed[:, None])
+        proven = self._find_deep((self._sorted == DEEP) & listed[:, None])
+        self._find(self._noted & listed[:, None] & ~proven)
         verdicts = self._verdicts()
         listed[list(self._alone)] = True
         for row in np.flatnonzero(listed).tolist():
@@ -187,26 +187,23 @@ class _SortedBatch:
         listed[np.flatnonzero(noted)[: self._results.room]] = True
         return listed
 
-    def _find_deep(self, asked: NDArray[np.bool_]) -> None:
-        """Makes the findings of deep overlaps of which the sort proves all."""
-        findings: dict[int, Finding] = {}
-        rows, numbers = (indices.tolist() for indices in np.nonzero(asked))
-        tolerances = self._pairs.deep_tolerances(self._matrices, rows, numbers)
-        for row, number, tolerance in zip(rows, numbers, tolerances, strict=True):
-            if tolerance is None:
-                continue
-            if number not in findings:
-                findings[number] = self._results.told(deep_overlap(self._pairs.pairs[number]))
-            found = replace(findings[number], tolerance=tolerance)
-            self._deep.setdefault(row, {})[number] = found
+    def _find_deep(self, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Makes the findings of deep overlaps of which the sort proves all, and returns where."""
+        tolerances = self._pairs.deep_tolerances(self._matrices, asked)
+        proven: NDArray[np.bool_] = ~np.isnan(tolerances)
+        for number in np.flatnonzero(proven.any(axis=0)).tolist():
+            finding = self._results.told(deep_overlap(self._pairs.pairs[number]))
+            for row in np.flatnonzero(proven[:, number]).tolist():
+                tolerance = float(tolerances[row, number])
+                self._deep.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
+        return proven
 
     def _find(self, asked: NDArray[np.bool_]) -> None:
         """Makes the other findings of these pairs."""
         climbing: list[tuple[int, int, Pair]] = []
         for row in np.flatnonzero(asked.any(axis=1)).tolist():
             found = self._found.setdefault(row, {})
-            known = found.keys() | self._deep.get(row, {}).keys()
-            numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in known]
+            numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in found]
             told = {
                 k: self._results.told(finding)
                 for k in numbers
