@@ -43,7 +43,7 @@ class SampleResults:
     def __init__(self, scene: Scene, settings: Settings, *, lists_all: bool) -> None:
         self.settings, self.lists_all = settings, lists_all
         self.cache = BodyCache()
-        if settings.planar is None:  # else the meshes are those of one pose
+        if scene.robots and settings.planar is None:  # else the meshes are those of one pose
             self.cache.meshes = scene.robots[0].kept.setdefault(SharedMesh.terms(settings), {})
         self.first: Report | None = None
         self.by_verdict: Counter[Verdict] = Counter()
