@@ -60,9 +60,9 @@ class SampleResults:
     def tally(self, a: str, b: str) -> SampledPair:
         return self._tallies.setdefault((a, b), SampledPair(a, b))
 
-    def check(self, batch: PoseBatch, row: int) -> SampledPose:
-        """Checks a pose as a scene of its own."""
-        report = check(batch.posed(row), self.settings, cache=self.cache)
+    def check(self, batch: PoseBatch, row: int, posed: Scene) -> SampledPose:
+        """Checks a pose as a scene of its own, which is `posed`."""
+        report = check(posed, self.settings, cache=self.cache)
         if self.first is None:
             self.first = report
             self._placed = {body.id: body.transform for body in report.bodies}
@@ -100,7 +100,7 @@ class SampleResults:
 
     def add(self, batch: PoseBatch, row: int) -> None:
         """Adds what the check of a pose says."""
-        sample = self.check(batch, row)
+        sample = self.check(batch, row, batch.posed(row))
         self.by_verdict[sample.verdict] += 1
         for finding in sample.findings:
             self.count(finding, sample.number)

@@ -95,8 +95,8 @@ def check_poses(
 def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     """The pairs for the core to sort; None: each pose is checked alone. Checks the first pose, for
     what is the same in all poses."""
-    results.check(batch, 0)
     scene, settings = batch.posed(0), results.settings
+    results.check(batch, 0, scene)
     bodies = place(scene, settings, results.cache)
     if not same_way(scene, settings, bodies):
         return None
