@@ -22,6 +22,7 @@ from satcheck.scene.files.readers import is_complete
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition, DecompositionError
     from satcheck.scene import Body, MeshFile
+    from satcheck.scene.planar.outline import Shape as StatedShape
     from satcheck.verify.bodies import Placed, Shape
 
 
@@ -103,10 +104,10 @@ def mesh_key(file: MeshFile, *, is_open: bool) -> MeshKey:
 class SharedMesh:
     """The data that all bodies with one mesh share, in file coordinates.
 
-    geometry: tree, hull and convexity. largest: the largest absolute coordinate. is_complete: its
-    reader leaves nothing out without a word. covers_once(): the
-    solid covers no point twice, so its volume is that of its mesh. has_sheets(): parts of the
-    surface of the solid have no inside on either side.
+    geometry: tree, hull and convexity. posed: of bodies with this mesh and a shape. largest: the
+    largest absolute coordinate. is_complete: its reader leaves nothing out without a word.
+    covers_once(): the solid covers no point twice, so its volume is that of its mesh. has_sheets():
+    parts of the surface of the solid have no inside on either side.
     """
 
     __slots__ = (
@@ -117,6 +118,7 @@ class SharedMesh:
         "has_sheets",
         "is_complete",
         "largest",
+        "posed",
         "shape",
         "surface_tolerance",
         "triangles",
@@ -140,6 +142,7 @@ class SharedMesh:
         self.geometry = geometry = core.Geometry(
             file.mesh, health.solid, health.plain_solid, is_open
         )
+        self.posed: dict[StatedShape | None, core.PosedBody] = {}
         # None of these holds this object, so that it goes with its last body, not with a later
         # search for cycles.
         self.covers_once = Once(lambda: core.covers_once(geometry.surface()))
@@ -171,7 +174,7 @@ def _decomposition(file: MeshFile, settings: Settings) -> Decomposition | Decomp
     directory = settings.cache_directory
     cache = user_cache() if directory is None else Cache(Path(directory))
     try:
-        with step(f"splitting {file.path}"):
+        with step(f"splitting for at most {settings.part_seconds:g} s: {file.path}"):
             return decompose(
                 file.mesh,
                 threshold=settings.part_threshold,
@@ -232,7 +235,6 @@ class PlacedBody:
     __slots__ = (
         "_checked",
         "_geometry",
-        "_posed",
         "body",
         "bounds",
         "curved",
@@ -260,7 +262,6 @@ class PlacedBody:
         self.endless = body.shape is not None and is_half_space(body)
         self.surface_tolerance = _surface_tolerance(body, shared.surface_tolerance)
         self._geometry: core.PlacedGeometry | None = None
-        self._posed: core.PosedBody | None = None
         self._checked: Placed | None = None
 
     @property
@@ -278,14 +279,14 @@ class PlacedBody:
     @property
     def posed(self) -> core.PosedBody:
         """The body as the core sorts it in many poses, made on demand."""
-        posed = self._posed
-        if posed is None:
-            posed = self._posed = _posed(self.body, self.shared.geometry)
-        return posed
+        posed, shape = self.shared.posed, self.body.shape
+        if shape not in posed:
+            posed[shape] = _posed(self.body, self.shared.geometry)
+        return posed[shape]
 
     def release(self) -> None:
-        """Releases the data; they are made again on demand."""
-        self._geometry = self._posed = self._checked = None
+        """Releases the data in the world; they are made again on demand."""
+        self._geometry = self._checked = None
 
     @property
     def mesh(self) -> core.Mesh:

@@ -116,8 +116,10 @@ class Pair(Struct, eq=False):
 
     @property
     def sweep_wants_more(self) -> bool:
-        """Return whether the sweep has taken as many steps as it may."""
-        return self.sweep_steps >= self.steps + STEPS_OF_SWEEP
+        """Return whether the sweep has taken as many steps as it may, of the only pair of a scene,
+        too."""
+        of_scene = STEPS_OF_SCENE + STEPS_OF_TRIANGLE * self.triangles
+        return self.sweep_steps >= min(self.steps, of_scene) + STEPS_OF_SWEEP
 
     @property
     def thickness_work(self) -> int:

@@ -17,28 +17,34 @@ from numpy.typing import NDArray
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody, world_bounds
-from satcheck.audit.finding import deep_overlap, open_by_fill
-from satcheck.audit.pair import Pair
+from satcheck.audit.finding import open_by_fill
+from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.core.conventions import Vector
 from satcheck.core.steps import is_careful
 from satcheck.report.judge import Judgement, by_rule
 from satcheck.report.report import SEVERITIES, Finding
-from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.bodies import IDENTITY, resolution_in_world
 from satcheck.scene.half_spaces import holds, reach_in_world
 
 if TYPE_CHECKING:
     from satcheck.audit.settings import Settings
     from satcheck.core.peers import VolumeMeter
+    from satcheck.core.transform import Transform
     from satcheck.scene import Body, Scene
 
 # How the core sorts a pair.
 OPEN, APART, DEEP, UNDECIDED = 0, 1, 2, 3
+NO_END = 2**64 - 1  # steps
 # The stretch of the placement of a link differs from pose to pose by less than this factor.
 _TURNED = 1 + 1e-9
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
+# Of the diagonal of the box of a body in one pose. Its box in any pose has a diagonal of at least
+# 1 / sqrt(3) of that, so that `TOUCH_FRACTION` does not limit a tolerance below this.
+_PLAINLY_FINE = 0.5 * TOUCH_FRACTION
 
 Numbers = NDArray[np.float64]
 Codes = NDArray[np.uint8]
+Flags = NDArray[np.bool_]
 
 
 class PosedPairs:
@@ -53,10 +59,17 @@ class PosedPairs:
         deep = [by_rule(Judgement("error"), pair.request).severity for pair in pairs]
         self.deep_fails = np.array([SEVERITIES.index(severity) <= least for severity in deep], bool)
 
-    def sift(self, matrices: Numbers, margins: Numbers | None = None) -> Codes:
+    def sift(self, matrices: Numbers) -> Codes:
         """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: as those of `PoseBatch`,
-        of all bodies. margins: of the shape of the result; pairs are APART only if they
-        are farther apart by this much, and those with NaN stay OPEN."""
+        of all bodies."""
+        return self.sift_within(matrices, None, NO_END)[0]
+
+    def sift_within(
+        self, matrices: Numbers, margins: Numbers | None, steps: int
+    ) -> tuple[Codes, int]:
+        """The same, and the steps that it took. margins: of the shape of the result; pairs are
+        APART only if they are farther apart by this much, and those with NaN stay OPEN. steps: the
+        most; beyond them pairs stay OPEN, too."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
         for pair, (a, b) in zip(self.pairs, self._places, strict=True):
@@ -73,10 +86,10 @@ class PosedPairs:
             crossing = inf if never or off or (closed and tolerance > 0) else tolerance
             bounds.append((a, b, gap_limit, depth, crossing))
         posed = [body.posed for body in self._bodies]
-        codes: Codes = core.sift(posed, bounds, matrices, self._settings.jobs, margins)
+        codes, spent = core.sift(posed, bounds, matrices, self._settings.jobs, margins, steps)
         if any(body.endless for body in self._bodies):
-            return self._open_beyond_reach(codes, matrices)
-        return codes
+            codes = self._open_beyond_reach(codes, matrices)
+        return codes, spent
 
     def _open_beyond_reach(self, codes: Codes, matrices: Numbers) -> Codes:
         """Opens pairs with a half space whose block does not stand for it there."""
@@ -102,18 +115,50 @@ class PosedPairs:
         step = (3 * stretch * body.shared.largest + farthest) * file.placement_step
         return file.resolution * stretch + step
 
-    def proven(
-        self, matrices: Numbers, row: int, number: int, code: int, pair: Pair
-    ) -> Finding | None:
-        """Return the finding of a sorted pair in one of the poses, if the sort proves all of it.
-        pair: as placed there."""
+    def deep_tolerances(self, matrices: Numbers, asked: Flags) -> Numbers:
+        """Return the tolerances of these pairs, which are DEEP, shape (poses, pairs); NaN where the
+        sort does not prove all that a finding has: a figure is asked for, or one of the bodies may
+        hold the other."""
+        tolerances = np.full(asked.shape, np.nan)
+        resolutions = np.full(matrices.shape[:2], np.nan)
+        for k in np.flatnonzero(asked.any(axis=0)).tolist():
+            self._set_tolerances(tolerances[:, k], matrices, asked[:, k], k, resolutions)
+        rows, numbers = np.nonzero(~np.isnan(tolerances))
+        sides = np.array(self._places)[numbers]
+        columns = (rows, sides[:, 0], sides[:, 1], tolerances[rows, numbers])
+        cases = list(zip(*(column.tolist() for column in columns), strict=True))
+        proven = core.neither_holds([body.posed for body in self._bodies], cases, matrices)
+        tolerances[rows, numbers] = np.where(proven, tolerances[rows, numbers], np.nan)
+        return tolerances
+
+    def _set_tolerances(
+        self, own: Numbers, matrices: Numbers, asked: Flags, number: int, resolutions: Numbers
+    ) -> None:
+        """Set the tolerances of a pair where they are asked for, and where it need not be placed.
+        resolutions: of bodies, shape (poses, bodies); NaN where they are not known yet."""
+        pair, sides = self.pairs[number], list(self._places[number])
+        if pair.on_half_space or not pair.request.by.keys() <= {"overlap", "distance"}:
+            return
+        if pair.request.tolerance is not None:
+            own[asked] = pair.request.tolerance
+            return
+        for k in sides:
+            body, largest = self._bodies[k].body, self._bodies[k].shared.largest
+            for row in np.flatnonzero(asked & np.isnan(resolutions[:, k])).tolist():
+                transform = _transform_at(body, matrices[row, k])
+                resolutions[row, k] = resolution_in_world(body.file, transform, largest)
+        written = resolutions[:, sides[0]] + resolutions[:, sides[1]]
+        plain = asked & (written <= _PLAINLY_FINE * min(pair.a.diagonal, pair.b.diagonal))
+        deviation = pair.a.body.file.deviation + pair.b.body.file.deviation
+        own[plain] = np.maximum(written, deviation)[plain]
+
+    def by_fill(self, matrices: Numbers, row: int, number: int) -> Finding | None:
+        """Return the finding of a pair that is UNDECIDED in one of the poses; None: a climb has to
+        find the hole."""
         a, b = self._places[number]
         of_a, of_b = self._bodies[a].posed, self._bodies[b].posed
-        sides = of_a, matrices[row, a], of_b, matrices[row, b]
-        if code == DEEP and pair.request.by.keys() <= {"overlap", "distance"}:
-            return deep_overlap(pair) if core.neither_holds(*sides, pair.tolerance) else None
-        hole = core.open_hole(*sides) if code == UNDECIDED else None
-        return None if hole is None else open_by_fill(pair, hole)
+        hole = core.open_hole(of_a, matrices[row, a], of_b, matrices[row, b])
+        return None if hole is None else open_by_fill(self.pairs[number], hole)
 
     def at(
         self,
@@ -149,8 +194,13 @@ def ball_around(body: PlacedBody) -> tuple[Vector, float]:
 
 
 def _moved(body: Body, rows: Numbers) -> Body:
+    transform = _transform_at(body, rows)
+    return body if transform is body.transform else replace(body, transform=transform)
+
+
+def _transform_at(body: Body, rows: Numbers) -> Transform | None:
     transform = (*rows.tolist(), *_LAST_ROW)
-    return body if transform == (body.transform or IDENTITY) else replace(body, transform=transform)
+    return body.transform if transform == (body.transform or IDENTITY) else transform
 
 
 def same_way(scene: Scene, settings: Settings, bodies: PlacedBodies) -> bool:

@@ -9,9 +9,11 @@ from typing import get_args
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache
+from satcheck.audit.body import SharedMesh
 from satcheck.audit.check import check
 from satcheck.audit.messages import finding_message
 from satcheck.audit.settings import Settings
+from satcheck.core.transform import Transform
 from satcheck.report.report import Finding, Issue, Report, Verdict
 from satcheck.report.samples import (
     SampledBody,
@@ -23,8 +25,8 @@ from satcheck.report.samples import (
     SamplesTruncated,
     StatedPose,
 )
-from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.robot.postures import PoseBatch, Posture
+from satcheck.scene.bodies import IDENTITY, Scene
+from satcheck.scene.robot.postures import PoseBatch
 
 # A report lists all samples up to this number. Of more samples it lists the first ones with a
 # finding, so many.
@@ -35,16 +37,20 @@ VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
 
 
 class SampleResults:
-    """What the samples so far have added up to. first: the report of the first one."""
+    """What the samples so far have added up to. first: the report of the first one; all have its
+    units, rules and settings."""
 
-    def __init__(self, settings: Settings, *, lists_all: bool) -> None:
+    def __init__(self, scene: Scene, settings: Settings, *, lists_all: bool) -> None:
         self.settings, self.lists_all = settings, lists_all
         self.cache = BodyCache()
+        if scene.robots and settings.planar is None:  # else the meshes are those of one pose
+            self.cache.meshes = scene.robots[0].kept.setdefault(SharedMesh.terms(settings), {})
         self.first: Report | None = None
         self.by_verdict: Counter[Verdict] = Counter()
         self.listed: list[SampledPose] = []
         self.issues: dict[Issue, None] = {}
         self._tallies: dict[tuple[str, str], SampledPair] = {}
+        self._placed: dict[str, Transform | None] = {}
 
     @property
     def room(self) -> int:
@@ -54,44 +60,47 @@ class SampleResults:
     def tally(self, a: str, b: str) -> SampledPair:
         return self._tallies.setdefault((a, b), SampledPair(a, b))
 
-    def check(self, batch: PoseBatch, row: int) -> SampledPose:
-        """Checks a pose as a scene of its own."""
-        report = check(batch.posed(row), self.settings, cache=self.cache)
-        self.first = self.first or report
-        posture = batch.posture(row)
-        own = {(issue.code, issue.message) for issue in posture.issues}
+    def check(self, batch: PoseBatch, row: int, posed: Scene) -> SampledPose:
+        """Checks a pose as a scene of its own, which is `posed`."""
+        report = check(posed, self.settings, cache=self.cache)
+        if self.first is None:
+            self.first = report
+            self._placed = {body.id: body.transform for body in report.bodies}
+        own = {(issue.code, issue.message) for issue in batch.issues(row)}
         of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
         others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
         self.issues |= dict.fromkeys(others)
-        verdict = report.summary.verdict
-        return self.sample(batch, row, posture, verdict, report.findings, of_pose)
+        told = tuple(self.told(finding) for finding in report.findings if not is_plain(finding))
+        return self.sample(batch, row, report.summary.verdict, told, of_pose)
+
+    def told(self, finding: Finding) -> Finding:
+        """Return the finding with its message."""
+        assert self.first is not None
+        return replace(finding, message=finding_message(finding, self.first))
 
     def sample(
         self,
         batch: PoseBatch,
         row: int,
-        posture: Posture,
         verdict: Verdict,
-        findings: Iterable[Finding],
+        findings: tuple[Finding, ...],
         issues: Iterable[Issue],
     ) -> SampledPose:
-        """Return a pose with those findings that are not plain, and with the placement of each body
-        that does not stand as in the first sample."""
-        assert self.first is not None
-        told = tuple(finding for finding in findings if not is_plain(finding))
+        """Return a pose with its findings, of which none is plain, and with the placement of each
+        body that does not stand as in the first sample."""
         moved = {}
-        if told:
-            first = {body.id: body.transform for body in self.first.bodies}
+        if findings:
             moved = {
-                body.id: body.transform or IDENTITY
-                for body in batch.posed(row).bodies
-                if body.transform != first[body.id]
+                body.id: transform or body.transform or IDENTITY
+                for body, transform in batch.transforms(row)
+                if (transform or body.transform) != self._placed[body.id]
             }
-        return SampledPose(batch.first + row, posture.pose(), verdict, told, tuple(issues), moved)
+        stated = batch.stated(row)
+        return SampledPose(batch.first + row, stated, verdict, findings, tuple(issues), moved)
 
     def add(self, batch: PoseBatch, row: int) -> None:
         """Adds what the check of a pose says."""
-        sample = self.check(batch, row)
+        sample = self.check(batch, row, batch.posed(row))
         self.by_verdict[sample.verdict] += 1
         for finding in sample.findings:
             self.count(finding, sample.number)
@@ -108,7 +117,7 @@ class SampleResults:
             number = tally.first_overlap
             if number is not None and tally.first_pose is None:
                 if number not in poses:
-                    poses[number] = batch.posture(number - batch.first).pose()
+                    poses[number] = batch.stated(number - batch.first)
                 tally.first_pose = poses[number]
 
     def report(self, number: int) -> SamplesReport:
@@ -144,7 +153,7 @@ class SampleResults:
             ),
             exempt=first.exempt,
             rules=first.rules,
-            samples=tuple(_with_messages(sample, first) for sample in self.listed),
+            samples=tuple(self.listed),
             pairs=pairs,
             issues=tuple(self.issues),
             truncated=self._truncated(number),
@@ -157,12 +166,6 @@ class SampleResults:
         beyond = f", or come after the first {LISTED_NOTED:,} with one"
         reason = f"they have no finding{beyond if len(self.listed) == LISTED_NOTED else ''}"
         return SamplesTruncated(left_out, reason)
-
-
-def _with_messages(sample: SampledPose, first: Report) -> SampledPose:
-    """first: of the poses; all have its units, rules and settings."""
-    found = (replace(f, message=finding_message(f, first)) for f in sample.findings)
-    return replace(sample, findings=tuple(found))
 
 
 def is_plain(finding: Finding) -> bool:

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from satcheck.audit.bodies import place
 from satcheck.audit.check import DEFAULT_SETTINGS, volume_meter
 from satcheck.audit.checked_pairs import examine_pairs
+from satcheck.audit.finding import deep_overlap
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs, same_way
@@ -72,7 +73,7 @@ def check_poses(
     if not poses:
         raise ValueError("no pose to check")
     settings = replace(settings, list_pruned=False, depth=settings.depth or False)
-    results = SampleResults(settings, lists_all=len(poses) <= LISTED_SAMPLES)
+    results = SampleResults(scene, settings, lists_all=len(poses) <= LISTED_SAMPLES)
     batches = pose_batches(scene, poses, BATCH)
     first = next(batches)  # all poses are judged before work is done
     pairs, batches = _sortable(results, first), chain((first,), batches)
@@ -94,8 +95,8 @@ def check_poses(
 def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     """The pairs for the core to sort; None: each pose is checked alone. Checks the first pose, for
     what is the same in all poses."""
-    results.check(batch, 0)
     scene, settings = batch.posed(0), results.settings
+    results.check(batch, 0, scene)
     bodies = place(scene, settings, results.cache)
     if not same_way(scene, settings, bodies):
         return None
@@ -134,7 +135,8 @@ def sorted_and_counted(
 
 class _SortedBatch:
     """Poses whose pairs the core has sorted. found: the findings of each pose so far, by the
-    numbers of the pairs. alone: poses that need a check of their own."""
+    numbers of the pairs, but for those of deep overlaps. alone: poses that need a check of their
+    own."""
 
     def __init__(
         self,
@@ -149,6 +151,7 @@ class _SortedBatch:
         self._matrices, self._sorting = matrices, sorting
         self._pairs, self._meter = pairs, meter
         self._found: dict[int, dict[int, Finding]] = {}
+        self._deep: dict[int, dict[int, Finding]] = {}
         self._alone: set[int] = set()
 
     def count(self) -> PoseBatch:
@@ -156,19 +159,21 @@ class _SortedBatch:
         self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
         self._find((self._sorted == OPEN) | _first_undecided(self._sorted))
         listed = self._listed()
-        self._find(self._noted & listed[:, None])
+        proven = self._find_deep((self._sorted == DEEP) & listed[:, None])
+        self._find(self._noted & listed[:, None] & ~proven)
         verdicts = self._verdicts()
         listed[list(self._alone)] = True
         for row in np.flatnonzero(listed).tolist():
             if row in self._alone:
                 self._results.add(self._batch, row)
             else:
-                found, posture = self._findings(row), self._batch.posture(row)
+                found = self._findings(row, deep=True)
                 issues = (
-                    Issue(i.code, i.severity, i.body, i.file, i.message) for i in posture.issues
+                    Issue(i.code, i.severity, i.body, i.file, i.message)
+                    for i in self._batch.issues(row)
                 )
                 self._results.listed.append(
-                    self._results.sample(self._batch, row, posture, verdicts[row], found, issues)
+                    self._results.sample(self._batch, row, verdicts[row], found, issues)
                 )
         return self._batch
 
@@ -182,24 +187,38 @@ class _SortedBatch:
         listed[np.flatnonzero(noted)[: self._results.room]] = True
         return listed
 
+    def _find_deep(self, asked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Makes the findings of deep overlaps of which the sort proves all, and returns where."""
+        tolerances = self._pairs.deep_tolerances(self._matrices, asked)
+        proven: NDArray[np.bool_] = ~np.isnan(tolerances)
+        for number in np.flatnonzero(proven.any(axis=0)).tolist():
+            finding = self._results.told(deep_overlap(self._pairs.pairs[number]))
+            for row in np.flatnonzero(proven[:, number]).tolist():
+                tolerance = float(tolerances[row, number])
+                self._deep.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
+        return proven
+
     def _find(self, asked: NDArray[np.bool_]) -> None:
-        """Makes the findings of these pairs, of shape (poses, pairs)."""
+        """Makes the other findings of these pairs."""
         climbing: list[tuple[int, int, Pair]] = []
         for row in np.flatnonzero(asked.any(axis=1)).tolist():
             found = self._found.setdefault(row, {})
             numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in found]
+            told = {
+                k: self._results.told(finding)
+                for k in numbers
+                if self._sorted[row, k] == UNDECIDED
+                and (finding := self._pairs.by_fill(self._matrices, row, k))
+            }
+            numbers = [k for k in numbers if k not in told or self._pairs.pairs[k].on_half_space]
             try:
                 pairs = self._pairs.at(self._matrices, row, numbers, self._meter)
             except (ValueError, OverflowError):  # the check of this pose says what is wrong
                 self._alone.add(row)
                 continue
-            for number, pair in zip(numbers, pairs, strict=True):
-                code = int(self._sorted[row, number])
-                finding = self._pairs.proven(self._matrices, row, number, code, pair)
-                if finding is None:
-                    climbing.append((row, number, pair))
-                else:
-                    found[number] = finding
+            found |= told
+            both = zip(numbers, pairs, strict=True)
+            climbing += [(row, k, pair) for k, pair in both if k not in told]
             if len(climbing) >= TOGETHER:
                 self._climb(climbing)
                 climbing = []
@@ -209,16 +228,18 @@ class _SortedBatch:
         pairs = [pair for *_, pair in climbing]
         checked = examine_pairs(pairs, self._results.settings.jobs)
         for (row, number, _), pair in zip(climbing, checked, strict=True):
-            self._found[row][number] = pair.finding
+            self._found[row][number] = self._results.told(pair.finding)
             self._results.issues |= dict.fromkeys(pair.issues)
 
-    def _findings(self, row: int) -> tuple[Finding, ...]:
-        found = sorted(self._found.get(row, {}).items())
-        return tuple(finding for _, finding in found if not is_plain(finding))
+    def _findings(self, row: int, *, deep: bool = False) -> tuple[Finding, ...]:
+        found = self._found.get(row, {})
+        if deep:
+            found = found | self._deep.get(row, {})
+        return tuple(found[k] for k in sorted(found) if not is_plain(found[k]))
 
     def _verdicts(self) -> dict[int, Verdict]:
         """Return the verdict on each pose that needs no check of its own, all of them counted: by
-        their findings, and by the sort for pairs without one."""
+        their findings, and by the sort for deep overlaps and for pairs without one."""
         codes, results = self._sorted.copy(), self._results
         codes[list(self._alone)] = APART
         for row, found in self._found.items():

@@ -204,6 +204,8 @@ def with_unit(figure: str, unit: str | None) -> str:
 def rule_of(finding: Finding, report: Report) -> RuleReport | None:
     """The rule of the scene that decided the severity; None, too, where several have its name, as
     those of one line do."""
+    if finding.rule is None:
+        return None
     named = [rule for rule in report.rules if rule.name == finding.rule]
     return named[0] if len(named) == 1 else None
 

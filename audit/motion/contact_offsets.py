@@ -70,9 +70,9 @@ class ContactOffsets:
         self._last, self._proven_until = offset, t + on
         return on
 
-    @staticmethod
-    def _frees(placed: Pair, offset: Vector) -> bool:
-        return relation_after(placed, offset) in FREE
+    def _frees(self, placed: Pair, offset: Vector) -> bool:
+        with self._pair.counting(placed):
+            return relation_after(placed, offset) in FREE
 
     def _offsets(self, ways: list[Vector], walls: int) -> Iterator[Vector]:
         """Offsets away from so many walls at once."""
@@ -93,9 +93,10 @@ class ContactOffsets:
         nearest = self._pair.apart(t, end).triangles
         normals = _normals(placed, [] if nearest is None else [nearest])
         for there in (placed, later):
-            surfaces = there.a.surface(), there.b.surface()
-            meeting = core.surface_intersection(*surfaces, MOST_MEETING)
-            normals += _normals(there, meeting.triangle_pairs)
+            with self._pair.counting(there):
+                surfaces = there.a.surface(), there.b.surface()
+                meeting = core.surface_intersection(*surfaces, MOST_MEETING)
+                normals += _normals(there, meeting.triangle_pairs)
         hulls = way_out_of_hulls(placed)
         first = [scaled(hulls.normal, -1.0)] if hulls.upper < self._pair.tolerance else []
         return first + [unit(normal) for normal, _ in normals.most_common(MOST_WAYS)]

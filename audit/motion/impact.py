@@ -16,6 +16,7 @@ later in the motion. If it finds none, the answer is open.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -224,7 +225,9 @@ def _probes(pair: MovingPair, start: float) -> list[float]:
     rest = 1.0 - start
     times |= {start + rest * k / PROBES for k in range(1, PROBES)}
     times |= {0.5 * (s + e) for s, e in pair.stretches if s >= start}
-    return sorted(t for t in times if any(s <= t <= e for s, e in pair.stretches))
+    starts = [s for s, _ in pair.stretches]
+    before = ((t, bisect_right(starts, t) - 1) for t in sorted(times))
+    return [t for t, k in before if k >= 0 and t <= pair.stretches[k][1]]
 
 
 def impact_point(placed: Pair, moved: float) -> Vector | None:

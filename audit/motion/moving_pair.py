@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from contextlib import contextmanager
 from itertools import chain
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -26,7 +27,7 @@ from satcheck.report.sweep import Joints, Place
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from satcheck.audit.motion.joint_travel import JointWay
     from satcheck.audit.motion.track import Track
@@ -67,6 +68,8 @@ STEPS_A_PIECE = 64
 VISITS = 10_000_000
 # Steps of the scene, each about a nanosecond: of a query, of a visit, of a pose that is checked.
 STEPS_OF_QUERY, STEPS_OF_VISIT, STEPS_OF_POSE = 50_000, 500, 300_000
+# For each triangle of both bodies in that pose.
+STEPS_OF_PLACED_TRIANGLE = 100
 # The least touch band of a sweep, in units of the rounding of a pose.
 PADS_IN_BAND = 8
 
@@ -213,16 +216,28 @@ class MovingPair:
 
     def found_at(self, t: float, clearance: float | None = None) -> Finding:
         """The finding at t, exact for the poses rounded to float64. clearance: it has to keep."""
-        self._spend(STEPS_OF_POSE)
         placed = self.placed(t)
         if clearance:
             by = {**placed.request.by, "distance": ALWAYS}
             request = replace(placed.request, by=by, clearance=clearance)
             placed = replace(placed, request=request)
-        draft = Draft(placed)
-        finding = examine(draft)
-        self.pair.sweep_steps += draft.steps + draft.work
+        return self.found(placed)
+
+    def found(self, placed: Pair) -> Finding:
+        """The finding of the pair as placed at some t."""
+        with self.counting(placed):
+            draft = Draft(placed)
+            finding = examine(draft)
+            self.pair.sweep_steps += draft.steps + draft.work
         return finding
+
+    @contextmanager
+    def counting(self, placed: Pair) -> Iterator[None]:
+        """Count what is done with the pair as placed. Raises BudgetSpent."""
+        self._spend(STEPS_OF_POSE + STEPS_OF_PLACED_TRIANGLE * self.pair.triangles)
+        before = placed.moved_steps
+        yield
+        self.pair.sweep_steps += placed.moved_steps - before
 
     def _spend(self, steps: int) -> None:
         if self.pair.sweep_wants_more:
@@ -267,11 +282,6 @@ def holed(pair: Pair) -> list[str]:
         return []
     bodies = (body.body for body in (pair.a, pair.b))
     return [body.id for body in bodies if body.file.health.holes and not body.open]
-
-
-def found(pair: Pair) -> Finding:
-    """The finding of a pair in one pose."""
-    return examine(Draft(pair))
 
 
 def overlaps(finding: Finding) -> bool:

@@ -18,7 +18,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck.audit.motion.moving_pair import OpenStretches, Stretch, holed
-from satcheck.audit.pair import Pair
+from satcheck.audit.pair import STEPS_OF_SCENE, STEPS_OF_TRIANGLE, Pair
 from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
 
 if TYPE_CHECKING:
@@ -40,6 +40,8 @@ NEAREST = 2.0**-20
 # The most intervals of one pair, and so many for each piece of the path.
 INTERVALS = 16
 INTERVALS_A_PIECE = 8
+# Steps of all intervals, beside those of a scene: so many for each piece of the path and each pair.
+STEPS_A_PIECE = 10_000
 
 
 class _Intervals(Struct, frozen=True):
@@ -96,6 +98,8 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
     most = INTERVALS + INTERVALS_A_PIECE * (len(times) - 1)
     found: list[list[Stretch]] = [[] for _ in pairs]
     steps, first_hit = np.zeros(len(found), int), np.full(len(found), inf)
+    left = STEPS_OF_SCENE + STEPS_A_PIECE * (len(times) - 1) * len(found)
+    left += sum(STEPS_OF_TRIANGLE * body.shared.triangles for body in bodies.values())
     waiting = [_Intervals(times[:-1], times[1:], np.ones((len(times) - 1, len(found)), bool))]
     while waiting:
         part = waiting.pop()
@@ -107,11 +111,13 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
         at = travel.at(middle)
         half = np.nextafter(np.maximum(part.end - middle, middle - part.start), inf)
         travelled = _travelled(at, pairs, half, part.active)
-        codes = posed.sift(at.placements(ids), travelled + tolerances)
+        codes, spent = posed.sift_within(at.placements(ids), travelled + tolerances, max(left, 0))
+        left -= spent
         hits = np.where(codes == DEEP, part.start[:, None], inf)
         first_hit = np.minimum(first_hit, hits.min(axis=0))
         unproven = part.active & (codes != APART)
         worth = (travelled > near) & (steps < most) & (part.start[:, None] <= first_hit)
+        worth &= left > 0
         for row, k in np.argwhere(unproven & ~worth).tolist():
             found[k].append((float(part.start[row]), float(part.end[row])))
         if (unproven & worth).any():

@@ -16,7 +16,7 @@ from itertools import chain
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable, found
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.planner import ALWAYS
 from satcheck.report.judge import keeps
 from satcheck.report.report import OVERLAPS
@@ -137,7 +137,7 @@ def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     placed = pair.placed(t)
     request = replace(placed.request, by={"overlap": ALWAYS, "depth": ALWAYS})
     settings = replace(placed.settings, budget=budget)
-    finding = found(replace(placed, settings=settings, request=request))
+    finding = pair.found(replace(placed, settings=settings, request=request))
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
         return 0.0, 0.0
     return finding.depth_bounds

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, product
+from typing import Any
 
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from satcheck.core.shapes import Primitive
@@ -38,13 +39,15 @@ class RobotBody(Struct, frozen=True):
 
 class SceneRobot(Struct, frozen=True):
     """A robot, its bodies, and its SRDF. groups: as the robot names them -> as the check does.
-    loose: its bodies stand where a document places them, so they may be moved without it."""
+    loose: its bodies stand where a document places them, so they may be moved without it. kept:
+    what checks of its poses derive from meshes, for later ones."""
 
     robot: Robot
     bodies: tuple[RobotBody, ...]
     srdf: Srdf | None = None
     groups: Mapping[str, str] = {}
     loose: bool = False
+    kept: dict[Any, Any] = field(default_factory=dict)
 
     @property
     def states(self) -> tuple[State, ...]:

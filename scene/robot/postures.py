@@ -6,15 +6,18 @@ limit.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.bodies import IDENTITY, Scene
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY, Body, Scene
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.kinematics import Numbers, link_frames, placements
 from satcheck.scene.robot.model import Joint, Robot, State, Values
@@ -97,6 +100,20 @@ class Joints:
         led = values_of((0.0,)) if leader is None else self._followed(leader, values)
         return joint.mimic.multiplier * led + joint.mimic.offset
 
+    def remarkable(
+        self, values: Mapping[str, Numbers], named: Collection[str], count: int
+    ) -> NDArray[np.bool_]:
+        """Return of each of these poses whether there may be an issue about it. values: of all
+        joints that move; named: those that any of the poses names."""
+        some = np.zeros(count, bool)
+        for name, joint in self.movable.items():
+            some |= joint.mimic is not None and name in named
+            if joint.limits is not None:
+                at, rest = values[name][0], _rest(joint)[0]
+                some |= (at < joint.limits.lower) | (at > joint.limits.upper)
+                some |= (at == rest) & (rest != 0)
+        return some
+
     def posture(self, joints: dict[str, Values], pose: Pose) -> Posture:
         """Return the posture with these values of all joints that move, of which the pose names
         some. A value beyond the limits is kept, with a warning."""
@@ -132,36 +149,64 @@ class Joints:
 
 class PoseBatch:
     """Some poses of a scene one after another. first: the number of the first one, from 1. values:
-    of every joint that moves. pose: takes a row, and returns the pose as it was given or drawn."""
+    of every joint that moves. named: the joints that any of the poses names. pose: takes a row, and
+    returns the pose as it was given or drawn."""
 
     def __init__(
         self,
         scene: Scene,
         first: int,
         count: int,
-        values: Mapping[str, Numbers],
+        named: Mapping[str, Numbers],
         joints: Joints,
         pose: Callable[[int], Pose],
     ) -> None:
-        self._scene, self._joints = scene, joints
-        self.first, self.count, self.values, self.pose = first, count, values, pose
+        self._scene, self._joints, self._named = scene, joints, named
+        self.first, self.count, self.pose = first, count, pose
+        self.values = joints.complete(named)
 
     def posture(self, row: int) -> Posture:
         return self._joints.posture(pose_at(self.values, row), self.pose(row))
+
+    def stated(self, row: int) -> dict[str, float | list[float]]:
+        """See `Posture.pose`."""
+        return {name: column[row] for name, column in self._columns.items()}
+
+    @cached_property
+    def _columns(self) -> dict[str, list[Any]]:
+        columns = {}
+        for name, own in self.values.items():
+            if self._joints.movable[name].mimic is None:
+                column = np.broadcast_to(own, (len(own), self.count))
+                columns[name] = (column[0] if len(own) == 1 else column.T).tolist()
+        return columns
+
+    def issues(self, row: int) -> tuple[Issue, ...]:
+        """See `Posture.issues`."""
+        return self.posture(row).issues if self._remarkable[row] else ()
+
+    @cached_property
+    def _remarkable(self) -> NDArray[np.bool_]:
+        return self._joints.remarkable(self.values, self._named, self.count)
 
     @cached_property
     def matrices(self) -> Numbers:
         """See `placements`."""
         return placements(self._scene, link_frames(self._scene, self.values), self.count)
 
+    def transforms(self, row: int) -> Iterator[tuple[Body, Transform | None]]:
+        """Yield each readable body with its transform in this pose; None: it has not moved."""
+        for body, rows in zip(self._scene.bodies, self.matrices[row].tolist(), strict=True):
+            transform = (*rows, 0.0, 0.0, 0.0, 1.0)
+            yield body, None if transform == (body.transform or IDENTITY) else transform
+
     def posed(self, row: int) -> Scene:
         """The scene with its robots in this pose; see `posed`."""
         scene, posture = self._scene, self.posture(row)
-        bodies = []
-        for body, rows in zip(scene.bodies, self.matrices[row].tolist(), strict=True):
-            transform = (*rows, 0.0, 0.0, 0.0, 1.0)
-            stays = transform == (body.transform or IDENTITY)
-            bodies.append(body if stays else replace(body, transform=transform))
+        bodies = [
+            body if transform is None else replace(body, transform=transform)
+            for body, transform in self.transforms(row)
+        ]
         earlier = scene.posture.issues if scene.posture else ()
         issues = (*(remark for remark in scene.issues if remark not in earlier), *posture.issues)
         return replace(scene, bodies=tuple(bodies), issues=issues, posture=posture)
@@ -176,7 +221,7 @@ def pose_batches(scene: Scene, poses: Sequence[Pose], size: int) -> Iterator[Pos
     if isinstance(poses, RandomPoses):
         for start, named in poses.batches(size):
             count, drawn = min(size, len(poses) - start), partial(pose_at, named)
-            yield PoseBatch(scene, start + 1, count, joints.complete(named), joints, drawn)
+            yield PoseBatch(scene, start + 1, count, named, joints, drawn)
         return
     for start in range(0, len(poses), size):
         given = poses[start : start + size]
@@ -184,8 +229,7 @@ def pose_batches(scene: Scene, poses: Sequence[Pose], size: int) -> Iterator[Pos
         for name in dict.fromkeys(name for pose in given for name in pose):
             rest = _rest(joints.movable[name])
             named[name] = np.array([pose.get(name, rest) for pose in given]).T.copy()
-        values = joints.complete(named)
-        yield PoseBatch(scene, start + 1, len(given), values, joints, given.__getitem__)
+        yield PoseBatch(scene, start + 1, len(given), named, joints, given.__getitem__)
 
 
 def settle(robots: Iterable[Robot], pose: Pose) -> Posture:

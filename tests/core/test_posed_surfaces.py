@@ -51,7 +51,7 @@ def sort(
 ) -> int:
     """By the surfaces alone: no ball proves anything."""
     pairs = [(0, 1, gap, math.inf, depth)]
-    codes = core.sift([body_of(a), body_of(b)], pairs, np.array([[at_a[:12], at_b[:12]]]), 1)
+    codes, _ = core.sift([body_of(a), body_of(b)], pairs, np.array([[at_a[:12], at_b[:12]]]), 1)
     return int(codes[0, 0])
 
 
@@ -127,7 +127,7 @@ def test_closed_bodies_that_cross_are_deep_by_a_point_beside_the_crossing() -> N
         at, other = turned(draw, 1.0, 0.0), turned(draw, 1.0, 0.0)
         matrices = np.array([[at[:12], other[:12]]])
         pairs = [(0, 1, tolerance, 0.5 * tolerance, math.inf)]
-        code = int(core.sift([body, body], pairs, matrices, 1)[0, 0])
+        code = int(core.sift([body, body], pairs, matrices, 1)[0][0, 0])
         relation = core.mesh_relation(in_world(comb, at), in_world(comb, other)).relation
         assert code == (DEEP if relation in OVERLAPS else APART)
         seen.append(code)

@@ -37,8 +37,10 @@ def sifted(
     depth: float,
 ) -> list[int]:
     matrices = np.array([[m[:12] for m in pose] for pose in at])
-    codes = core.sift([a, b], [(0, 1, limit, depth, 2 * depth)], matrices, 1)
-    assert np.array_equal(codes, core.sift([a, b], [(0, 1, limit, depth, 2 * depth)], matrices, 2))
+    codes, steps = core.sift([a, b], [(0, 1, limit, depth, 2 * depth)], matrices, 1)
+    on_two, same = core.sift([a, b], [(0, 1, limit, depth, 2 * depth)], matrices, 2)
+    assert np.array_equal(codes, on_two)
+    assert steps == same
     return [int(code) for code in codes[:, 0]]
 
 
@@ -114,3 +116,13 @@ def test_matrices_that_prove_nothing() -> None:
     for wrong in (math.nan, math.inf, 1e300):
         other = (*still[:3], wrong, *still[4:])
         assert sifted(body, body, [(still, other)], 0.0, 0.0) == [0]
+
+
+def test_without_steps_only_separate_hulls_are_proven() -> None:
+    bodies = [core.PosedBody(geometry(CUBE)) for _ in range(2)]
+    at = [placed((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (x, 0.0, 0.0)) for x in (0.5, 3.0)]
+    still = placed((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+    matrices = np.array([[still[:12], moved[:12]] for moved in at])
+    pairs = [(0, 1, 0.0, 0.1, 0.1)]
+    assert core.sift(bodies, pairs, matrices)[0].ravel().tolist() == [DEEP, APART]
+    assert core.sift(bodies, pairs, matrices, steps=0)[0].ravel().tolist() == [0, APART]

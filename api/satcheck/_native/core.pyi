@@ -360,14 +360,13 @@ def sift(
     matrices: NDArray[float64],
     threads: int = 0,
     margins: NDArray[float64] | None = None,
-) -> NDArray[uint8]: ...
+    steps: int = ...,
+) -> tuple[NDArray[uint8], int]: ...
 def neither_holds(
-    a: PosedBody,
-    matrix_a: NDArray[float64],
-    b: PosedBody,
-    matrix_b: NDArray[float64],
-    margin: float,
-) -> bool: ...
+    bodies: Sequence[PosedBody],
+    pairs: Sequence[tuple[int, int, int, float]],
+    matrices: NDArray[float64],
+) -> list[bool]: ...
 def open_hole(
     a: PosedBody, matrix_a: NDArray[float64], b: PosedBody, matrix_b: NDArray[float64]
 ) -> OpenHole | None: ...

@@ -53,14 +53,22 @@ using Matrices = nb::ndarray<const double, nb::shape<-1, -1, 12>, nb::c_contig, 
 using Margins = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 using Matrix12 = nb::ndarray<const double, nb::shape<12>, nb::c_contig, nb::device::cpu>;
 using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
+using DeepTuple = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, double>;
 using Sifting = std::vector<Sifted>;
 
-nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<PairTuple>& pairs,
-                    const Matrices& matrices, unsigned threads, const std::optional<Margins>& margins) {
-  const nb::tuple held(given);
+std::vector<PosedBody*> bodies_of(const nb::tuple& held, const Matrices& matrices) {
   std::vector<PosedBody*> bodies;
   if (!nb::try_cast(held, bodies)) throw nb::type_error("bodies: a sequence of PosedBody expected");
   if (matrices.shape(1) != bodies.size()) throw std::invalid_argument("a pose needs a matrix for each body");
+  return bodies;
+}
+
+std::pair<nb::object, std::uint64_t> sift_all(const nb::typed<nb::sequence, PosedBody>& given,
+                                              const std::vector<PairTuple>& pairs, const Matrices& matrices,
+                                              unsigned threads, const std::optional<Margins>& margins,
+                                              std::uint64_t steps) {
+  const nb::tuple held(given);
+  const std::vector<PosedBody*> bodies = bodies_of(held, matrices);
   if (margins && (margins->shape(0) != matrices.shape(0) || margins->shape(1) != pairs.size())) {
     throw std::invalid_argument("a pair needs a margin in each pose");
   }
@@ -70,24 +78,37 @@ nb::object sift_all(const nb::typed<nb::sequence, PosedBody>& given, const std::
     sifted.push_back({a, b, gap_limit, depth, crossing});
   }
   Sifting results;
+  Budget budget(steps);
   {
     const nb::gil_scoped_release release;
-    results = sift(bodies, sifted, matrices.data(), margins ? margins->data() : nullptr, matrices.shape(0), threads);
+    results = sift(bodies, sifted, matrices.data(), margins ? margins->data() : nullptr, matrices.shape(0), threads, &budget);
   }
   auto kept = std::make_unique<Sifting>(std::move(results));
   const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Sifting*>(p); });
   const auto* values = reinterpret_cast<const std::uint8_t*>(kept.release()->data());
-  return nb::cast(nb::ndarray<nb::numpy, const std::uint8_t>(values, {matrices.shape(0), pairs.size()}, owner));
+  const nb::ndarray<nb::numpy, const std::uint8_t> codes(values, {matrices.shape(0), pairs.size()}, owner);
+  return {nb::cast(codes), budget.spent()};
+}
+
+std::vector<bool> neither_holds_in(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<DeepTuple>& pairs,
+                                   const Matrices& matrices) {
+  const nb::tuple held(given);
+  const std::vector<PosedBody*> bodies = bodies_of(held, matrices);
+  std::vector<DeepPair> deep;
+  for (const auto& [pose, a, b, margin] : pairs) {
+    if (pose >= matrices.shape(0)) throw std::invalid_argument("the number of a pose is out of range");
+    if (a >= bodies.size() || b >= bodies.size()) throw std::invalid_argument("the number of a body is out of range");
+    deep.push_back({pose, a, b, margin});
+  }
+  const nb::gil_scoped_release release;
+  return neither_holds(bodies, deep, matrices.data());
 }
 
 void bind_listed(nb::module_& m) {
-  m.def(
-      "neither_holds",
-      [](PosedBody& a, const Matrix12& at_a, PosedBody& b, const Matrix12& at_b, double margin) {
-        return neither_holds(a, at_a.data(), b, at_b.data(), margin);
-      },
-      "a"_a, "matrix_a"_a.noconvert(), "b"_a, "matrix_b"_a.noconvert(), "margin"_a,
-      "Whether each of two bodies in a pose is proven to reach out of the other one by more than the margin.");
+  m.def("neither_holds", &neither_holds_in, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(),
+        R"(Whether each of two bodies in a pose is proven to reach out of the other one by more than a margin.
+
+pairs: (pose, i, j, margin) each, of the numbers of a pose and of two bodies. bodies, matrices: as in `sift`.)");
   m.def(
       "open_hole",
       [](PosedBody& a, const Matrix12& at_a, PosedBody& b, const Matrix12& at_b) {
@@ -155,13 +176,15 @@ in the closed mesh of the geometry `around`; the closed mesh of `within` lies in
                    "A ball that holds the body: its centre and its radius.");
   bind_listed(m);
   m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0, "margins"_a = nb::none(),
-        R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs): 1: the bodies are apart by more than the
+        "steps"_a = kNoEnd,
+        R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs), and the steps that it took. 1: the bodies are apart by more than the
 gap limit of the pair; 2: a point lies deeper in both than its depth, or no translation up to `crossing` ends the overlap;
 3: the fill of a hole decides whether they overlap; 0: none of this is proven.
 
 pairs: (i, j, gap_limit, depth, crossing) each, of the numbers of two bodies. matrices: float64 of shape (poses, bodies, 12), the
 upper three rows of each placement. margins: float64 of shape (poses, pairs), added to the gap limits; NaN: the pair is
-left at 0 in that pose. The arrays must not change during the call. The proofs hold for the vertices in the world, each coordinate rounded once. The
+left at 0 in that pose. steps: the most, shared evenly by blocks of poses; a pair is left at 0 where its block has none
+left. The arrays must not change during the call. The proofs hold for the vertices in the world, each coordinate rounded once. The
 result does not depend on the number of threads (0: one a core).)");
 }
 

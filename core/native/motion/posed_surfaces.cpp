@@ -14,6 +14,8 @@ namespace {
 
 // After so many pairs of triangles that prove nothing, the walk ends: for a crossing, and for a proof that bodies are apart.
 constexpr int kMostUnclear = 64, kNoneUnclear = 1;
+// Steps of a pair of boxes, and of a pair of triangles.
+constexpr std::uint64_t kStepsOfBoxes = 30, kStepsOfTriangles = 100;
 
 // A coordinate, a height or a width that is computed in the frame of A from coordinates of at most `size` is off by at
 // most this times `size`: fewer than 64 roundings.
@@ -196,8 +198,16 @@ double longest(const Aabb& box) { return max_abs(box.size()); }
 class Walk {
  public:
   // gap, depth: in the frame of A, all rounding included.
-  Walk(const Surface& a, const Surface& b, const Relative& place, double gap, double depth, int most_unclear)
-      : a_(a), b_(b), place_(place), boxes_(place, gap), gap_(gap), depth_(depth), most_unclear_(most_unclear) {}
+  Walk(const Surface& a, const Surface& b, const Relative& place, double gap, double depth, int most_unclear,
+       Budget& budget)
+      : a_(a),
+        b_(b),
+        place_(place),
+        boxes_(place, gap),
+        gap_(gap),
+        depth_(depth),
+        most_unclear_(most_unclear),
+        budget_(budget) {}
 
   // In the frame of A, of the first two triangles that cross.
   const std::optional<CommonSegment>& common() const { return common_; }
@@ -207,6 +217,8 @@ class Walk {
     while (!open.empty()) {
       const auto [i, j] = open.back();
       open.pop_back();
+      budget_.spend(kStepsOfBoxes);
+      if (budget_.is_spent()) return Meeting::unclear;
       const BvhNode &of_a = a_.bvh.nodes[i], &of_b = b_.bvh.nodes[j];
       if (boxes_.apart(of_a.box, of_b.box)) continue;
       if (of_a.is_leaf() && of_b.is_leaf()) {
@@ -231,6 +243,7 @@ class Walk {
       if (!meet(box, of_a.box)) continue;
       for (std::uint32_t i = of_a.first; i < of_a.first + of_a.count; ++i) {
         if (!meet(box, box_at(a_.bvh, a_.mesh, i))) continue;
+        budget_.spend(kStepsOfTriangles);
         const Corners other = corners(a_.mesh, a_.bvh.order[i]);
         if (are_apart(other, moved, gap_)) continue;
         const TriangleCrossing crossing(other, moved, place_.size);
@@ -254,6 +267,7 @@ class Walk {
   TurnedBoxes boxes_;
   double gap_, depth_;
   int most_unclear_, unclear_ = 0;
+  Budget& budget_;
   std::optional<CommonSegment> common_;
 };
 
@@ -285,16 +299,17 @@ Vec3 largest_of(const Surface& surface) {
 
 }  // namespace
 
-std::optional<CommonSegment> crossing_of(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b) {
+std::optional<CommonSegment> crossing_of(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b,
+                                         Budget& budget) {
   if (a.bvh.nodes.empty() || b.bvh.nodes.empty()) return {};
   const Relative b_in_a = relative_place(at_a, largest_of(a), at_b, largest_of(b));
-  Walk walk(a, b, b_in_a, 0, INFINITY, kMostUnclear);
+  Walk walk(a, b, b_in_a, 0, INFINITY, kMostUnclear, budget);
   walk.run();
   return walk.common() ? std::optional(in_world(at_a, *walk.common())) : std::nullopt;
 }
 
 SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double gap,
-                          double depth) {
+                          double depth, Budget& budget) {
   const Relative b_in_a = relative_place(at_a, a.largest(), at_b, b.largest());
   const Relative a_in_b = relative_place(at_b, b.largest(), at_a, a.largest());
   // Surfaces farther apart than this stay apart while all rounding is undone, in the frames of both.
@@ -302,13 +317,13 @@ SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, co
   if (!std::isfinite(rounding)) return {};
   const double to_frame = (1 + kProductRounding) / at_a.stretch.least;
   const double least_gap = gap * to_frame + rounding, least_depth = depth * to_frame + rounding;
-  Walk walk(a.surface(), b.surface(), b_in_a, least_gap, least_depth, kMostUnclear);
+  Walk walk(a.surface(), b.surface(), b_in_a, least_gap, least_depth, kMostUnclear, budget);
   const Meeting meeting = walk.run();
   if (meeting == Meeting::unclear && walk.common()) return {meeting, in_world(at_a, *walk.common())};
   if (meeting != Meeting::apart) return {meeting, {}};
   const bool closed = a.surface().solid && b.surface().solid;
   const bool walls_apart =
-      closed || Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY, kNoneUnclear).run() == Meeting::apart;
+      closed || Walk(a.walls(), b.walls(), b_in_a, least_gap, INFINITY, kNoneUnclear, budget).run() == Meeting::apart;
   if (walls_apart && !may_reach_into(a, b, b_in_a) && !may_reach_into(b, a, a_in_b)) return {Meeting::apart, {}};
   const auto nested = [&](bool unknown) { return reaches_into(a, b, b_in_a, unknown) || reaches_into(b, a, a_in_b, unknown); };
   if (depth <= gap && nested(false)) return {Meeting::deep, {}};

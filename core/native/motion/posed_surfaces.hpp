@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/budget.hpp"
 #include "motion/posed_body.hpp"
 
 namespace satcheck {
@@ -20,15 +21,16 @@ struct SurfaceMeeting {
   std::optional<CommonSegment> common;  // only if the meeting is unclear
 };
 
-// Where two surfaces in file coordinates cross; empty if they do not, or if it was not found.
-std::optional<CommonSegment> crossing_of(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b);
+// Where two surfaces in file coordinates cross; empty if they do not, if it was not found, or if the budget is spent.
+std::optional<CommonSegment> crossing_of(const Surface& a, const PosedPlace& at_a, const Surface& b, const PosedPlace& at_b,
+                                         Budget& budget);
 
 // apart: the bodies are farther apart than `gap`. deep: two triangles cross, and no translation up to `depth` ends that,
 // or the surfaces are that far apart and a part of one is in the material of the other. Each triangle bounds material, is
 // within it or is a sheet, so the bodies overlap. All this holds for any fill of holes within the hull of their rim.
 // by_fill: the surfaces are farther apart than `gap`, and neither body encloses a part of the other without the fill of a
-// hole. gap, depth: world units. The bodies have meshes.
+// hole. gap, depth: world units. The bodies have meshes. When the budget is spent, the meeting is unclear.
 SurfaceMeeting meeting_of(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b, double gap,
-                          double depth);
+                          double depth, Budget& budget);
 
 }  // namespace satcheck

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
@@ -26,7 +27,9 @@ double rounding_between(const PosedPlace& a, const PosedPlace& b) { return kPose
 // The poses that one thread takes at a time. Neighbours in a list of poses are often close to each other, and the axis
 // of a pair starts anew with each block, so that threads do not change the result.
 constexpr std::size_t kBlock = 64;
-constexpr int kMostSteps = 32;
+constexpr int kMostAxes = 32;
+// Steps of a pair whose hulls are not apart, beside its walks.
+constexpr std::uint64_t kStepsOfPair = 1000;
 
 // A body in the pose at hand.
 struct Place {
@@ -58,7 +61,7 @@ SATCHECK_WIDE Search seek_axis(const PosedBody& a, const PosedPlace& at_a, const
   int count = 0;
   double nearest = INFINITY;
   axis = axis * (1 / norm(axis));
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostAxes; ++step) {
     const Corner on_a = support(a.corners(), at_a, -axis), on_b = support(b.corners(), at_b, axis);
     const Vec3 w = on_a.point - on_b.point;
     const double height = dot(axis, w);
@@ -125,7 +128,8 @@ bool holds_a_part(const Surface& hull, const PosedPlace& at_hull, Side other, do
 }
 
 bool have_common_interior(const Surface& hull, const PosedPlace& at_hull, Side other, double rounding) {
-  const auto segment = crossing_of(hull, at_hull, other.closed(), other.at);
+  Budget budget;
+  const auto segment = crossing_of(hull, at_hull, other.closed(), other.at, budget);
   if (segment) return ball_beside(*segment, hull, at_hull, other.closed(), other.at, rounding);
   return holds_a_part(hull, at_hull, other, rounding);
 }
@@ -189,8 +193,10 @@ std::optional<OpenHole> open_hole(PosedBody& a, const PosedPlace& at_a, PosedBod
 
 class PoseSifter {
  public:
-  PoseSifter(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs)
-      : bodies_(bodies), pairs_(pairs), places_(bodies.size()), axes_(pairs.size()) {}
+  PoseSifter(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs, std::uint64_t steps)
+      : bodies_(bodies), pairs_(pairs), places_(bodies.size()), axes_(pairs.size()), budget_(steps) {}
+
+  std::uint64_t spent() const { return budget_.spent(); }
 
   void take(const double* matrices, const double* margins, Sifted* results) {
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -218,17 +224,20 @@ class PoseSifter {
     const Search search = seek_axis(a, at_a, b, at_b, axis == Vec3{} ? between : axis, limit + grown);
     axis = search.axis;
     if (search.apart) return Sifted::apart;
+    budget_.spend(kStepsOfPair);
+    if (budget_.is_spent()) return Sifted::open;
     const double depth = pair.depth + rounding;
     if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
     const bool have_meshes = a.has_mesh() && b.has_mesh();
     // A crossing of a mesh around a body proves no overlap.
-    const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, have_meshes ? pair.crossing : INFINITY);
+    const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, have_meshes ? pair.crossing : INFINITY, budget_);
+    if (budget_.is_spent()) return Sifted::open;
     if (meeting == Meeting::apart) return Sifted::apart;
     if (meeting == Meeting::deep) return Sifted::deep;
     if (meeting == Meeting::by_fill && have_meshes && fills_differ(a, at_a, b, at_b, rounding)) return Sifted::undecided;
     const Surface *in_a = a.material(), *in_b = b.material();
     if (!in_a || !in_b) return Sifted::open;
-    const auto crossing = have_meshes ? segment : crossing_of(*in_a, at_a, *in_b, at_b);
+    const auto crossing = have_meshes ? segment : crossing_of(*in_a, at_a, *in_b, at_b, budget_);
     const bool deep = crossing && ball_beside(*crossing, *in_a, at_a, *in_b, at_b, depth);
     return deep ? Sifted::deep : Sifted::open;
   }
@@ -250,13 +259,21 @@ class PoseSifter {
   const std::vector<SiftedPair>& pairs_;
   std::vector<Place> places_;
   std::vector<Vec3> axes_;  // where the search starts, for each pair; 0: between the centres
+  Budget budget_;
 };
 
 }  // namespace
 
-bool neither_holds(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b, double margin) {
-  const PosedPlace at_a = place_at(a, matrix_a), at_b = place_at(b, matrix_b);
-  return sticks_out(a, at_a, b, at_b, margin) && sticks_out(b, at_b, a, at_a, margin);
+std::vector<bool> neither_holds(const std::vector<PosedBody*>& bodies, const std::vector<DeepPair>& pairs,
+                                const double* matrices) {
+  std::vector<bool> results;
+  for (const auto& [pose, i, j, margin] : pairs) {
+    PosedBody &a = *bodies[i], &b = *bodies[j];
+    const double* rows = matrices + 12 * bodies.size() * pose;
+    const PosedPlace at_a = place_at(a, rows + 12 * i), at_b = place_at(b, rows + 12 * j);
+    results.push_back(sticks_out(a, at_a, b, at_b, margin) && sticks_out(b, at_b, a, at_a, margin));
+  }
+  return results;
 }
 
 std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b) {
@@ -265,15 +282,21 @@ std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBod
 }
 
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
-                         const double* matrices, const double* margins, std::size_t poses, unsigned threads) {
+                         const double* matrices, const double* margins, std::size_t poses, unsigned threads,
+                         Budget* budget) {
   std::vector<Sifted> results(poses * pairs.size());
-  parallel_for((poses + kBlock - 1) / kBlock, threads, [&](std::size_t block) {
-    PoseSifter sifter(bodies, pairs);
+  const std::size_t blocks = (poses + kBlock - 1) / kBlock;
+  const std::uint64_t most = budget == nullptr ? kNoEnd : budget->left() / std::max<std::size_t>(blocks, 1);
+  std::vector<std::uint64_t> spent(blocks);
+  parallel_for(blocks, threads, [&](std::size_t block) {
+    PoseSifter sifter(bodies, pairs, most);
     for (std::size_t pose = kBlock * block; pose < std::min(poses, kBlock * (block + 1)); ++pose) {
       const double* own = margins == nullptr ? nullptr : margins + pairs.size() * pose;
       sifter.take(matrices + 12 * bodies.size() * pose, own, results.data() + pairs.size() * pose);
     }
+    spent[block] = sifter.spent();
   });
+  if (budget != nullptr) budget->spend(std::accumulate(spent.begin(), spent.end(), std::uint64_t{0}));
   return results;
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/budget.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "motion/posed_body.hpp"
 
@@ -31,12 +32,21 @@ struct SiftedPair {
 
 // matrices: of each body in each pose, pose by pose, three rows of four numbers each. margins: for each pair in each
 // pose, added to its gap limit; NaN: the pair is left open there. Null: no margins. Returns a value for each pair in
-// each pose, pose by pose, the same for any number of threads (0: one a core).
+// each pose, pose by pose, the same for any number of threads (0: one a core). budget: shared evenly by blocks of poses;
+// pairs of a block that has spent its share are left open. Null: without an end.
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,
-                         const double* matrices, const double* margins, std::size_t poses, unsigned threads);
+                         const double* matrices, const double* margins, std::size_t poses, unsigned threads,
+                         Budget* budget = nullptr);
 
-// Of a pair that is deep in this pose: whether each body reaches out of the other one by more than `margin`.
-bool neither_holds(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b, double margin);
+// A pair that is deep in one of the poses.
+struct DeepPair {
+  std::uint32_t pose, a, b;
+  double margin;
+};
+
+// Whether each body of a pair reaches out of the other one by more than the margin.
+std::vector<bool> neither_holds(const std::vector<PosedBody*>& bodies, const std::vector<DeepPair>& pairs,
+                                const double* matrices);
 
 // Of a pair that is undecided in this pose: the hole that a climb names. Empty if only the climb can tell.
 std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b);

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from satcheck.audit.motion.worst import WIDTH, deepest_pose, least_distance
+from satcheck.audit.pair import STEPS_OF_SWEEP
 from satcheck.scene.motion import Rotation, Translation
 from tests.audit.motion.pairs import hull_of, moving
 from tests.audit.shapes import box, bracket, unit_box
@@ -79,6 +80,15 @@ def test_the_deepest_pose_of_a_bracket():
     assert worst.lower <= -0.75
     assert worst.upper == pytest.approx(-0.75, rel=0.01)
     assert worst.upper >= -0.75 - pair.pad
+
+
+def test_a_deepest_pose_takes_no_more_steps_than_the_sweep_may():
+    pair = moving(unit_box(3, 2, 1), Translation((0.0, -0.75, 0.0)), bracket())
+    assert deepest_pose(pair, 0.1) is not None
+    taken = pair.pair.sweep_steps
+    few = moving(unit_box(3, 2, 1), Translation((0.0, -0.75, 0.0)), bracket())
+    few.pair.steps, few.pair.sweep_steps = taken // 100, STEPS_OF_SWEEP
+    assert deepest_pose(few, 0.1) is None
 
 
 @pytest.mark.parametrize("seed", range(8))
