@@ -36,6 +36,8 @@ STEPS_OF_MOVES, STEPS_OF_MOVED_TRIANGLE = 1_000_000_000, 200_000
 
 # The steps that any sweep may take.
 STEPS_OF_SWEEP = 1_000_000
+# The most of the only pair of a scene: spikes that slide along a face take up to 10^10.
+STEPS_OF_LONE_SWEEP = 4 * STEPS_OF_SCENE
 
 # The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
 # of a part that is 1/4000 of its assembly still has the full precision of float32 coordinates.
@@ -118,8 +120,8 @@ class Pair(Struct, eq=False):
     def sweep_wants_more(self) -> bool:
         """Return whether the sweep has taken as many steps as it may, of the only pair of a scene,
         too."""
-        of_scene = STEPS_OF_SCENE + STEPS_OF_TRIANGLE * self.triangles
-        return self.sweep_steps >= min(self.steps, of_scene) + STEPS_OF_SWEEP
+        most = STEPS_OF_LONE_SWEEP + STEPS_OF_TRIANGLE * self.triangles
+        return self.sweep_steps >= min(self.steps, most) + STEPS_OF_SWEEP
 
     @property
     def thickness_work(self) -> int:
