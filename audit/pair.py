@@ -36,8 +36,8 @@ STEPS_OF_MOVES, STEPS_OF_MOVED_TRIANGLE = 1_000_000_000, 200_000
 
 # The steps that any sweep may take.
 STEPS_OF_SWEEP = 1_000_000
-# The most of the only pair of a scene: spikes that slide along a face take up to 10^10.
-STEPS_OF_LONE_SWEEP = 4 * STEPS_OF_SCENE
+# The most of the only pair of a scene: a spike that slides along a face takes five billion.
+STEPS_OF_LONE_SWEEP = 6_000_000_000
 
 # The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
 # of a part that is 1/4000 of its assembly still has the full precision of float32 coordinates.
