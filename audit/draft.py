@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from satcheck.core.curved.signed import Signed
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.contacts import Components, Contacts
+    from satcheck.report.part_pairs import PartPairs
 
 NANOSECONDS_PER_MICROSECOND = 1000.0
 Side = Literal["open", "within", "deeper", "hidden"]
@@ -156,6 +157,7 @@ class Draft(Struct, eq=False):
     volume_error: float | None = None
     contacts: Contacts | None = None
     components: Components | None = None
+    part_pairs: PartPairs | None = None
     disputed: str | None = None
     work: int = 0
     reason_code: UndecidedBy | None = None
@@ -228,6 +230,7 @@ class Draft(Struct, eq=False):
             volume_error=self.volume_error,
             contacts=self.contacts,
             components=self.components,
+            part_pairs=self.part_pairs,
             reason=self.reason,
             plan=tuple(self.stages),
         )

@@ -19,6 +19,7 @@ from satcheck.audit.stages.contacts import find_contacts
 from satcheck.audit.stages.cross_check import ask_peers
 from satcheck.audit.stages.depth import measure_depth
 from satcheck.audit.stages.gap import measure_gap
+from satcheck.audit.stages.part_pairs import find_part_pairs
 from satcheck.audit.stages.relation import apart_by_boxes, open_hole, settle, why_open
 from satcheck.audit.stages.thickness import measure_thickness, thickness_ahead, why_not_thick
 from satcheck.audit.stages.touch_band import band_of, touch_band
@@ -49,6 +50,7 @@ STAGES: dict[Effect, Callable[[Draft], None]] = {
     "volume": measure_volume,
     "contacts": find_contacts,
     "components": find_components,
+    "part-pairs": find_part_pairs,
     "cross-check": ask_peers,
 }
 
@@ -118,6 +120,8 @@ def _run_on_request(draft: Draft) -> None:
 
         if draft.pair.request.wants("thickness"):
             measure_thickness(draft)
+        if draft.pair.request.wants("part-pairs"):
+            find_part_pairs(draft)
         note_unavailable(draft)
         return
     by = draft.pair.request.by
