@@ -36,8 +36,9 @@ class PartPairs(Value, frozen=True):
     parts: the number of parts of A and of B. A convex body is its own part; 0: it was not split.
     pairs: the deepest first, then the undecided ones, then those that touch. overlapping,
     undecided, touching: their numbers, including those that are not listed. untested: the number of
-    pairs of parts that were not tested, because the boxes of too many meet. remark: why there are no parts, or how parts and bodies disagree, with the
-    measured error that explains it (`part_error` of a body); None: they agree.
+    pairs of parts that were not tested, because the boxes of too many meet. remark: why there are
+    no parts, or how parts and bodies disagree, with the measured error that explains it
+    (`part_error` of a body); None: they agree.
     """
 
     parts: tuple[Count, Count] = (0, 0)

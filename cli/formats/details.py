@@ -167,7 +167,8 @@ def part_lines(page: Page, findings: Sequence[Finding]) -> list[str]:
             pairs = f"{counted(found.overlapping, 'pair')} of parts {verb}"
             title += pairs if found.overlapping else "no parts overlap"
         lines += fitted(title, page, BOLD)
-        lines += aligned([_part_row(pair, finding) for pair in found.pairs[:MOST_PART_PAIRS]], page)
+        rows = [_part_row(pair, finding) for pair in found.pairs[:MOST_PART_PAIRS]]
+        lines += aligned(rows, page) if rows else []
         rest = found.overlapping + found.touching + found.undecided + found.untested
         lines += _more(rest - min(len(found.pairs), MOST_PART_PAIRS), "{}", "more pair")
         if found.remark is not None:
