@@ -90,14 +90,16 @@ def _near(a: Sequence[Part], b: Sequence[Part], within: float) -> Iterator[tuple
 def _compared(pair: Pair, a: Part, b: Part, i: int, j: int) -> PartPair | None:
     """i, j: the numbers of the parts, from 0. None: the parts are separated."""
     result = core.check_pair(a.shape, b.shape, a.pose, b.pose, method=pair.settings.method)
-    relation, method, lower = _relation(result, pair.tolerance), result.method, result.lower
+    relation, method, distance = _relation(result, a, b, pair.tolerance), result.method, None
     if relation is None:
         return None
+    if relation != "indeterminate":
+        distance = result.distance
     return PartPair(
         a=f"{pair.a.id}#{i + 1}",
         b=f"{pair.b.id}#{j + 1}",
         relation=relation,
-        depth=None if lower is None or relation == "indeterminate" else max(-lower, 0.0),
+        depth=None if distance is None else max(-distance, 0.0),
         axis=result.normal,
         method="gjk+epa" if method == "epa" else method,
         axes_tested=result.axes_tested,
@@ -105,15 +107,22 @@ def _compared(pair: Pair, a: Part, b: Part, i: int, j: int) -> PartPair | None:
     )
 
 
-def _relation(result: core.PairResult, tolerance: float) -> PartRelation | None:
+def _relation(result: core.PairResult, a: Part, b: Part, tolerance: float) -> PartRelation | None:
     """None: separated, by more than the tolerance."""
-    if result.outcome == "undecided":
+    if result.outcome == "undecided" or result.lower is None or result.upper is None:
         return "indeterminate"
-    if result.outcome == "separated":
-        is_near = result.upper is not None and result.upper <= tolerance
-        return "touching" if is_near else None
-    is_deep = result.lower is None or -result.lower > tolerance
-    return "penetrating" if result.outcome == "penetrating" and is_deep else "touching"
+    if result.outcome == "touching":
+        return "touching"
+    sign = 1 if result.outcome == "separated" else -1
+    limit = sign * tolerance
+    side: int | None = -1 if result.upper < limit else 1
+    if result.lower <= limit <= result.upper:
+        side = core.compare_signed_distance(a.shape, b.shape, limit, a.pose, b.pose)
+    if side is None:
+        return "indeterminate"
+    if side != sign:
+        return "touching"
+    return None if sign == 1 else "penetrating"
 
 
 def _rank(pair: PartPair) -> tuple[bool, float]:
