@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Literal
 
 from satcheck.report.values import Count, Length, Value, Vector
@@ -49,7 +50,21 @@ class PartPairs(Value, frozen=True):
     untested: Count = 0
     remark: str | None = None
 
+    def overlapping_parts(self) -> tuple[list[int], list[int]]:
+        """Return the numbers of the parts of A, and of B, in listed pairs that overlap."""
+        deep = [pair for pair in self.pairs if pair.relation == "penetrating"]
+        return _numbers(pair.a for pair in deep), _numbers(pair.b for pair in deep)
+
     @property
     def known(self) -> bool:
         """Return whether both bodies have parts."""
         return all(self.parts)
+
+
+def number_of(name: str) -> int:
+    """Return the 3 of `kettle#3`."""
+    return int(name.rpartition("#")[2])
+
+
+def _numbers(names: Iterable[str]) -> list[int]:
+    return sorted(set(map(number_of, names)))

@@ -18,6 +18,7 @@ from satcheck.audit.words import (
     with_unit,
 )
 from satcheck.cli.formats.tables import BOLD, BOLD_RED, YELLOW, aligned, fitted
+from satcheck.report.part_pairs import number_of
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 
@@ -178,10 +179,7 @@ def part_lines(page: Page, findings: Sequence[Finding]) -> list[str]:
 
 def _part_row(pair: PartPair, finding: Finding) -> tuple[str, ...]:
     """`kettle#3 x snowflake#1  penetrating  depth 0.31  axis (0, 0, 1)  gjk+epa, 7 iterations`."""
-    a, b = (
-        f"{id_}#{name.rpartition('#')[2]}"
-        for id_, name in zip((finding.a, finding.b), (pair.a, pair.b), strict=True)
-    )
+    a, b = f"{finding.a}#{number_of(pair.a)}", f"{finding.b}#{number_of(pair.b)}"
     steps = {"axis": pair.axes_tested, "iteration": pair.iterations}
     names = {"axis": "axes", "iteration": "iterations"}
     by = [counted(count, name, names[name]) for name, count in steps.items() if count]
