@@ -190,6 +190,15 @@ def test_each_rung_sees_something_else(opened: Opened) -> None:
     assert page.locator("#rung").input_value() == "triangles"
 
 
+def test_parts_that_overlap_are_red(opened: Opened) -> None:
+    red = []
+    for asked in (("--accuracy", "parts"), ("--parts",)):
+        page = opened(*asked, "--no-depth", *CONCAVE)
+        page.locator("#rung").select_option("parts")
+        red.append(share(page, "red"))
+    assert red[1] > 1.5 * red[0]
+
+
 def test_without_parts_there_is_nothing_to_choose(opened: Opened) -> None:
     page = opened(*CONCAVE)
     assert page.locator("#rung option[value=parts]").is_disabled()
