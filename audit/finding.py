@@ -19,7 +19,6 @@ from satcheck.audit.stages.contacts import find_contacts
 from satcheck.audit.stages.cross_check import ask_peers
 from satcheck.audit.stages.depth import measure_depth
 from satcheck.audit.stages.gap import measure_gap
-from satcheck.audit.stages.part_pairs import find_part_pairs
 from satcheck.audit.stages.relation import apart_by_boxes, open_hole, settle, why_open
 from satcheck.audit.stages.thickness import measure_thickness, thickness_ahead, why_not_thick
 from satcheck.audit.stages.touch_band import band_of, touch_band
@@ -43,6 +42,14 @@ if TYPE_CHECKING:
 INCOMPLETE = "not proven: the reader of a file may have left something out"
 OPEN_BAND = "undecided: whether that is within the tolerance"
 OPEN_GAP = "the gap is not known: measuring it takes too many steps"
+
+
+def _find_part_pairs(draft: Draft) -> None:
+    from satcheck.audit.stages.part_pairs import find_part_pairs  # a check without parts is faster
+
+    find_part_pairs(draft)
+
+
 # The stages that run on request, in their order, after those that decide the relation. A curved
 # shape has none of those on triangles.
 STAGES: dict[Effect, Callable[[Draft], None]] = {
@@ -50,7 +57,7 @@ STAGES: dict[Effect, Callable[[Draft], None]] = {
     "volume": measure_volume,
     "contacts": find_contacts,
     "components": find_components,
-    "part-pairs": find_part_pairs,
+    "part-pairs": _find_part_pairs,
     "cross-check": ask_peers,
 }
 
@@ -121,7 +128,7 @@ def _run_on_request(draft: Draft) -> None:
         if draft.pair.request.wants("thickness"):
             measure_thickness(draft)
         if draft.pair.request.wants("part-pairs"):
-            find_part_pairs(draft)
+            _find_part_pairs(draft)
         note_unavailable(draft)
         return
     by = draft.pair.request.by
