@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from satcheck.core.curved.signed import Signed
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.contacts import Components, Contacts
+    from satcheck.report.part_pairs import PartPairs
     from satcheck.report.values import Interval
 
 NANOSECONDS_PER_MICROSECOND = 1000.0
@@ -157,6 +158,7 @@ class Draft(Struct, eq=False):
     volume_error: float | None = None
     contacts: Contacts | None = None
     components: Components | None = None
+    part_pairs: PartPairs | None = None
     disputed: str | None = None
     work: int = 0
     reason_code: UndecidedBy | None = None
@@ -239,6 +241,7 @@ class Draft(Struct, eq=False):
             volume_error=self.volume_error,
             contacts=self.contacts,
             components=self.components,
+            part_pairs=self.part_pairs,
             reason=self.reason or judgement.reason,
             reason_code=self.reason_code if judgement.undecided == "relation" else None,
             plan=tuple(self.stages),

@@ -42,6 +42,14 @@ if TYPE_CHECKING:
 INCOMPLETE = "not proven: the reader of a file may have left something out"
 OPEN_BAND = "undecided: whether that is within the tolerance"
 OPEN_GAP = "the gap is not known: measuring it takes too many steps"
+
+
+def _find_part_pairs(draft: Draft) -> None:
+    from satcheck.audit.stages.part_pairs import find_part_pairs  # a check without parts is faster
+
+    find_part_pairs(draft)
+
+
 # The stages that run on request, in their order, after those that decide the relation. A curved
 # shape has none of those on triangles.
 STAGES: dict[Effect, Callable[[Draft], None]] = {
@@ -49,6 +57,7 @@ STAGES: dict[Effect, Callable[[Draft], None]] = {
     "volume": measure_volume,
     "contacts": find_contacts,
     "components": find_components,
+    "part-pairs": _find_part_pairs,
     "cross-check": ask_peers,
 }
 
@@ -118,6 +127,8 @@ def _run_on_request(draft: Draft) -> None:
 
         if draft.pair.request.wants("thickness"):
             measure_thickness(draft)
+        if draft.pair.request.wants("part-pairs"):
+            _find_part_pairs(draft)
         note_unavailable(draft)
         return
     by = draft.pair.request.by

@@ -133,7 +133,9 @@ def request_for(
         else request.rule("clearance") or ("distance" if settings.distance else "--clearance"),
     }
     for effect, extra in ON_REQUEST.items():
-        option = f"--{effect}" if getattr(settings, extra.setting) else None
+        option = (
+            f"--{extra.setting.replace('_', '-')}" if getattr(settings, extra.setting) else None
+        )
         by[effect] = option or request.rule(KEY_OF_EFFECT.get(effect, ""))
     # A coarser accuracy is chosen for speed.
     by_failing = composed and settings.depth is None and settings.accuracy == "exact"

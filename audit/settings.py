@@ -74,10 +74,10 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
                 raise _refused(f"{name}: {_reason(error, kind)}, not {value!r}") from None
         if isinstance(self.accept, list):
             force_setattr(self, "accept", tuple(self.accept))
-        for name in ("contacts", "components", "volume", "cross_check"):
+        for name in ("contacts", "components", "volume", "cross_check", "parts"):
             if not getattr(self, name):
                 continue
-            if self.accuracy != "exact" and name != "cross_check":
+            if self.accuracy != "exact" and name not in ("cross_check", "parts"):
                 raise _refused(f"{name} needs triangles: not at accuracy {self.accuracy}")
             if self.planar is not None:
                 raise _refused(f"{name} needs bodies in space: not with planar")

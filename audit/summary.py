@@ -49,6 +49,7 @@ from satcheck.scene.planar.outline import Shape
 from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
+    from satcheck.decompose import Decomposition
     from satcheck.scene import Scene
 
 # Stages that are part of an effect of another name. All that no effect is named after decide the
@@ -154,9 +155,15 @@ def _body_report(body: PlacedBody) -> BodyReport:
         surface_tolerance=body.surface_tolerance or None,
         convex=body.shared.geometry.known_convex,
         parts=None if parts is None else len(parts.parts),
-        part_error=None if parts is None else PartError(parts.outside, parts.missing),
+        part_error=None if parts is None else _part_error(body, parts),
         shape=stated_shape(given.shape),
     )
+
+
+def _part_error(body: PlacedBody, parts: Decomposition) -> PartError:
+    """Return the error of parts in file coordinates, world units."""
+    stretch = body.largest_stretch
+    return PartError(parts.outside * stretch, parts.missing * stretch)
 
 
 def stated_shape(shape: Shape | None) -> StatedShape | None:

@@ -26,10 +26,10 @@ SECTIONS = {
     "What to check": "bodies pairs manifest shard exclude since split merge planar units "
     "allow_open package packages geometry reading pose state "
     "joint_path sample seed asset root allow_outside",
-    "What to compute": "depth contacts components volume never cross_check certificate",
+    "What to compute": "depth contacts components parts volume never cross_check certificate",
     "Tolerances and rules": "max_thickness max_depth clearance tolerance surface_tolerance "
     "rules between baseline fail_on accept exit_zero pins",
-    "Output": "outputs output resume form folder parts plot top explain timings quiet",
+    "Output": "outputs output resume form folder plot top explain timings quiet",
     "Accuracy and limits": "accuracy method threshold width budget max_motion iterations limit "
     "engine scheduler jobs",
 }

@@ -55,7 +55,8 @@ def rendered(
     if kind == "picture":
         from satcheck.cli.formats.picture import render as render_picture
 
-        parts = to.parts or result.settings.accuracy == "parts"
+        settings = result.settings
+        parts = to.parts or settings.parts or settings.accuracy == "parts"
         return render_picture(form, result, scene, split=parts, pose=to.pose)
     if isinstance(result, SamplesReport):
         if form == "json":

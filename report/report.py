@@ -21,6 +21,7 @@ from satcheck.report.bodies import BodyReport as BodyReport
 from satcheck.report.bodies import PartError as PartError
 from satcheck.report.certificate import Certificate
 from satcheck.report.contacts import Components, Contacts
+from satcheck.report.part_pairs import PartPairs
 from satcheck.report.regions import InsideFinding, Regions
 from satcheck.report.settings import StatedConfig, StatedReading, StatedSettings
 from satcheck.report.statics import Statics, SupportFinding
@@ -57,6 +58,7 @@ Effect = Literal[
     "volume",
     "contacts",
     "components",
+    "part-pairs",
     "cross-check",
     "certificate",
     "sweep",
@@ -235,6 +237,7 @@ class Finding(Value, frozen=True, kw_only=True):
     volume_error: Length | None = None
     contacts: Contacts | None = None
     components: Components | None = None
+    part_pairs: PartPairs | None = None
     motion: Sweep | None = None
     certificate: Certificate | None = None
     reason: str | None = None

@@ -25,10 +25,16 @@ class OnRequest(Struct, frozen=True):
     answer: Callable[[Finding], object] | None = None
 
 
+def _known_parts(finding: Finding) -> object:
+    found = finding.part_pairs
+    return found if found is not None and found.known else None
+
+
 ON_REQUEST: dict[Effect, OnRequest] = {
     "volume": OnRequest("volume", lambda finding: finding.volume),
     "contacts": OnRequest("contacts", lambda finding: finding.contacts),
     "components": OnRequest("components", lambda finding: finding.components),
+    "part-pairs": OnRequest("parts", _known_parts),
     "cross-check": OnRequest("cross_check"),
     "certificate": OnRequest("certificate", lambda finding: finding.certificate),
 }

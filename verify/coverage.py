@@ -81,7 +81,7 @@ GROUPS: dict[Kind, dict[str, str]] = {
     "not covered": {
         "the version of satcheck": "tool.version",
         "motions": "motions",
-        "convex parts": "bodies[].parts bodies[].part_error",
+        "convex parts": "bodies[].parts bodies[].part_error findings[].part_pairs",
         "lines of files": "bodies[].stated_at",
         "which flags and rules required an effect": "effects[].asked_by statics.asked_by",
         "on how many pairs an effect ran": "effects[].pairs effects[].not_run statics.pairs",

@@ -1,4 +1,5 @@
 """Convex parts of bodies, for `--accuracy parts`: the relation, and the lower bound of a depth.
+`part_pairs.py` lists them for `--parts`.
 
 Parts differ from a mesh by a measured error. An overlap deeper than that error is proven; any other
 answer is an estimate. A translation that frees A also frees every convex body inside A from every
@@ -26,10 +27,12 @@ if TYPE_CHECKING:
 
 
 class Part(Struct, frozen=True):
-    """A convex body in the world frame, with its box."""
+    """A convex body in the world frame, with its box. pose: of a curved shape; None: the shape lies
+    in the world."""
 
     shape: core.Shape
     bounds: Box
+    pose: tuple[float, ...] | None = None
 
 
 class Covering(Struct, frozen=True):
@@ -52,11 +55,24 @@ def decomposition(draft: Draft, body: PlacedBody) -> Decomposition | None:
     return decomposed
 
 
+def why_no_parts(pair: Pair) -> str | None:
+    """Return why the bodies are not split; None: they can be."""
+    for body in (pair.a, pair.b):
+        if body.endless:
+            return f"a half space has no end: {body.id}"
+        if not body.solid:
+            return f"a mesh that is not solid has no inside to fill: {body.id}"
+        if body.curved is None and body.shared.has_sheets():
+            return f"a sheet has no inside to fill, and parts leave it out: {body.id}"
+    return None
+
+
 def split_together(pair: Pair) -> None:
     """Decomposes both bodies in parallel, each in a process of its own. The bodies' files keep the
     result or the failure.
     """
-    waiting = [body.shared for body in (pair.a, pair.b) if not body.convex]
+    bodies = (body for body in (pair.a, pair.b) if body.curved is None)
+    waiting = [body.shared for body in bodies if not body.convex]
     if len(waiting) < 2 or waiting[0] is waiting[1] or pair.settings.jobs == 1:
         return
     from satcheck.audit.parallel import in_parallel
@@ -77,6 +93,9 @@ def inner_parts(draft: Draft, body: PlacedBody) -> list[Part]:
 
 
 def covering(draft: Draft, body: PlacedBody) -> Covering | None:
+    if body.curved is not None:
+        part = Part(body.curved.shape, body.bounds, body.curved.pose)
+        return Covering([part], body.curved.slack, body.curved.slack)
     if body.convex:
         return Covering([Part(body.hull_shape(), body.bounds)], 0.0, 0.0)
     decomposed = decomposition(draft, body)
@@ -142,11 +161,8 @@ def settle_by_parts(draft: Draft) -> None:
     allows it; else it is an estimate."""
     draft.found("penetrating", False)
     pair = draft.pair
-    if not pair.both_solid:
-        draft.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
-        return
-    if any(body.shared.has_sheets() for body in (pair.a, pair.b)):
-        draft.record("parts", "not asked", "a sheet has no inside to fill, and parts leave it out")
+    if why_not := why_no_parts(pair):
+        draft.record("parts", "not asked", why_not)
         return
     split_together(pair)
     covers = [covering(draft, body) for body in (pair.a, pair.b)]

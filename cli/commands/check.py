@@ -148,6 +148,7 @@ units split sample explain version"""
 @option.setting("max_depth", type=length)
 @option.setting("contacts")
 @option.setting("components")
+@option.setting("parts")
 @option.setting("volume")
 @option.setting("clearance", type=length)
 @option.tolerance

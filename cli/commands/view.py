@@ -84,7 +84,7 @@ _FORMATS = FormatChoice(ALL, {"html": _PAGE})
     "--parts",
     is_flag=True,
     help="Split the bodies with findings, so that the page shows their convex parts. A report of "
-    "--accuracy parts has them anyway.",
+    "--parts or --accuracy parts has them anyway.",
 )
 @click.option(
     "--manifest",

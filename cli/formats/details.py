@@ -18,12 +18,14 @@ from satcheck.audit.words import (
     with_unit,
 )
 from satcheck.cli.formats.tables import BOLD, BOLD_RED, YELLOW, aligned, fitted
+from satcheck.report.part_pairs import number_of
 from satcheck.scene.units import unit_of
 from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.contacts import Component
+    from satcheck.report.part_pairs import PartPair
     from satcheck.report.regions import InsideFinding, Regions
     from satcheck.report.report import BodyReport, EffectReport, Finding, Report
     from satcheck.report.statics import BodyIsland, Statics, SupportedBody, SupportFinding
@@ -35,6 +37,7 @@ _WORDS = {"yes": "{}", "no": "not {}", "open": "{} is open"}
 _STYLES = {"no": BOLD_RED, "open": YELLOW, "yes": ""}
 
 MOST_COMPONENTS = 8  # of each pair; JSON has them all
+MOST_PART_PAIRS = 8
 # What was computed, its pairs or result, microseconds (None: none), and more about it.
 _Row = tuple[str, str, float | None, str]
 
@@ -148,6 +151,45 @@ def facts(item: Component, finding: Finding) -> Iterator[str]:
         yield f"{finding.a} passes through {finding.b}"
     if item.passes in ("b-through-a", "both"):
         yield f"{finding.b} passes through {finding.a}"
+
+
+def part_lines(page: Page, findings: Sequence[Finding]) -> list[str]:
+    """The lines between the table and the remarks: the deepest pairs of parts of each pair."""
+    lines: list[str] = []
+    for finding in findings:
+        found = finding.part_pairs
+        if found is None:
+            continue
+        title = f"{finding.a} and {finding.b}"
+        if found.known:
+            first, second = counted(found.parts[0], "convex part"), found.parts[1]
+            title = f"{finding.a} ({first}) and {finding.b} ({second:,}): "
+            verb = "overlaps" if found.overlapping == 1 else "overlap"
+            pairs = f"{counted(found.overlapping, 'pair')} of parts {verb}"
+            title += pairs if found.overlapping else "no parts overlap"
+        lines += fitted(title, page, BOLD)
+        rows = [_part_row(pair, finding) for pair in found.pairs[:MOST_PART_PAIRS]]
+        lines += aligned(rows, page) if rows else []
+        rest = found.overlapping + found.touching + found.undecided + found.untested
+        lines += _more(rest - min(len(found.pairs), MOST_PART_PAIRS), "{}", "more pair")
+        if found.remark is not None:
+            lines += fitted(f"  {found.remark}", page, YELLOW)
+    return lines
+
+
+def _part_row(pair: PartPair, finding: Finding) -> tuple[str, ...]:
+    """`kettle#3 x snowflake#1  penetrating  depth 0.31  axis (0, 0, 1)  gjk+epa, 7 iterations`."""
+    a, b = f"{finding.a}#{number_of(pair.a)}", f"{finding.b}#{number_of(pair.b)}"
+    steps = {"axis": pair.axes_tested, "iteration": pair.iterations}
+    names = {"axis": "axes", "iteration": "iterations"}
+    by = [counted(count, name, names[name]) for name, count in steps.items() if count]
+    return (
+        f"{a} x {b}",
+        pair.relation,
+        f"depth {number(pair.depth)}" if pair.depth else "",
+        "" if pair.axis is None else f"axis {vector(pair.axis)}",
+        ", ".join([pair.method, *by]),
+    )
 
 
 def region_lines(report: Report, page: Page) -> list[str]:

@@ -29,6 +29,7 @@ from satcheck.audit.words import (
 from satcheck.cli.formats.details import (
     component_lines,
     explanation,
+    part_lines,
     region_lines,
     support_lines,
 )
@@ -93,6 +94,7 @@ def render(
     said += all_begin(root) if shown else []
     lines += fitted_each(said, page)
     lines += component_lines(page, shown)
+    lines += part_lines(page, shown)
     lines += support_lines(report, page)
     lines += region_lines(report, page)
     if explain:
@@ -109,7 +111,10 @@ def _of_usable_bodies(report: Report) -> list[Finding]:
 
 
 def _is_told(finding: Finding, report: Report) -> bool:
-    """Return whether the pair fails, warns, is undecided or has a figure that was asked for."""
+    """Return whether the pair fails, warns, is undecided or has a figure that was asked for, or
+    parts that are not separated."""
+    if finding.part_pairs is not None and (finding.part_pairs.pairs or finding.part_pairs.remark):
+        return True
     asked = report.settings.contacts or report.settings.volume or report.settings.components
     return is_wrong(finding) or (asked and finding.relation != "separated")
 

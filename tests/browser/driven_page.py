@@ -51,6 +51,18 @@ SHARE = """(colour) => {
   return count / (width * height);
 }"""
 
+# Of the ranges of a mesh that are drawn at once.
+OPACITIES = """() => {
+  const { renderer } = picture, { translucent } = renderer, seen = [];
+  renderer.translucent = (shape, colour, how) => {
+    if (how?.range) seen.push(colour[3]);
+    translucent.call(renderer, shape, colour, how);
+  };
+  paint();
+  renderer.translucent = translucent;
+  return seen;
+}"""
+
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
@@ -188,6 +200,22 @@ def test_each_rung_sees_something_else(opened: Opened) -> None:
     assert page.locator("#rung").input_value() == "hulls"
     press(page, "h")
     assert page.locator("#rung").input_value() == "triangles"
+
+
+def test_parts_that_overlap_stand_out(opened: Opened) -> None:
+    """The opacity of each part. Of a report that lists no pairs of parts all are alike."""
+    seen = []
+    for asked in ("--accuracy", "parts"), ("--parts",):
+        page = opened(*asked, "--no-depth", *CONCAVE)
+        page.locator("#rung").select_option("parts")
+        seen.append(page.evaluate(OPACITIES))
+    alike, told = seen
+    assert len(alike) == len(told)
+    assert len(set(alike)) == 1
+    overlapping = page.evaluate("report.findings[0].parts")
+    assert told.count(alike[0]) == sum(map(len, overlapping))
+    assert 0 < told.count(min(told)) < len(told)
+    assert min(told) < alike[0]
 
 
 def test_without_parts_there_is_nothing_to_choose(opened: Opened) -> None:

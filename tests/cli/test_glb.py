@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from satcheck.cli.formats.picture.glb import MET, OVERLAP
+from satcheck.cli.formats.picture.glb import MET, OVERLAP, PART
 from satcheck.core import Mesh
 from satcheck.scene.written_meshes import Node, glb
 from tests.cli.process import PUSHED, satcheck
@@ -48,6 +48,21 @@ def test_bodies_overlap_way_out_and_thickness(tmp_path: Path) -> None:
     assert arrow.extents.max() == pytest.approx(1.0, rel=1e-6)  # as long as the depth
     red = scene.geometry[scene.graph[f"overlap: {pair}"][1]].visual.material
     assert red.baseColorFactor[0] > 2 * red.baseColorFactor[2]
+
+
+def test_a_report_with_parts_has_a_node_for_each(tmp_path: Path) -> None:
+    """Of the bracket one part overlaps the peg, and the other one does not."""
+    scene = model(tmp_path / "out.glb", "--parts", "l_bracket.obj", "peg_in_arm.ply")
+    names = {"l_bracket-1", "l_bracket-2", "peg_in_arm-1"}
+    assert names <= set(scene.graph.nodes_geometry)
+    assert not {"l_bracket", "peg_in_arm"} & set(scene.graph.nodes_geometry)
+    materials = {name: scene.geometry[scene.graph[name][1]].visual.material.name for name in names}
+    assert sorted(materials.values()) == [MET.name, PART.name, PART.name]
+    assert materials["peg_in_arm-1"] == PART.name
+    for name in names:
+        part = placed(scene, name)
+        assert part.is_watertight
+        assert part.is_convex
 
 
 def test_copies_share_a_mesh_and_lie_in_metres(tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ from satcheck.cli.formats.picture.parts import parts_of
 from satcheck.core import Mesh
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Sphere
+from satcheck.report.part_pairs import number_of
 from satcheck.scene import load_scene
 from satcheck.scene.meshes import scene_of_meshes
 from tests.cli.process import PUSHED, SAMPLES, satcheck
@@ -175,6 +176,19 @@ def test_what_each_rung_sees() -> None:
     split = data["parts"][0]
     assert len(split["triangles"]) == len(parts["l_bracket"]) > 1
     assert sum(split["triangles"]) == len(triangles(data, split["mesh"]))
+
+
+@pytest.mark.parametrize("asked", [False, True])
+def test_the_page_knows_which_parts_overlap(asked: bool) -> None:
+    names = [str(SAMPLES / name) for name in ("l_bracket.obj", "peg_in_arm.ply")]
+    scene = load_scene(names)
+    report = check(scene, Settings(parts=asked, depth=False))
+    (shown,) = picture_data(report, scene, parts_of(report, scene))["findings"]
+    if not asked:
+        assert shown["parts"] == ([], [])
+        return
+    (pair,) = report.findings[0].part_pairs.pairs  # type: ignore[union-attr]
+    assert shown["parts"] == ([number_of(pair.a)], [1])
 
 
 def test_figures_of_a_finding_are_in_the_frame_of_the_page() -> None:

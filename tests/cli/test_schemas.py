@@ -77,6 +77,7 @@ COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
         ("--volume", "--contacts", "--components", "--cross-check", "--clearance", "1", *PUSHED),
         "report",
     ),
+    "parts": (("--parts", "l_bracket.obj", "peg_in_arm.ply", "open_box.off"), "report"),
     "mesh files": (("--certificate", "l_bracket.obj", "peg_in_notch.ply", "cube.off"), "report"),
     "unreadable": (("box.obj", "cube.off", "{}/broken.obj"), "report"),
     "scene": (("cell.toml",), "report"),

@@ -12,6 +12,7 @@ from satcheck.cli.formats.table import render
 from satcheck.cli.formats.tables import ROWS, broken
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.report.contacts import Component, Components, Contacts
+from satcheck.report.part_pairs import PartPair, PartPairs
 from satcheck.report.report import (
     Finding,
     RuleReport,
@@ -159,6 +160,37 @@ def test_components_below_the_table() -> None:
     assert first + f"{b} passes through {a}\n" in text
     assert text.count("  <= 0.1 thick, at (0.5, 0.5, 1), volume 0.125\n") == 7
     assert "  2 thinner ones\n" in text
+
+
+def test_parts_below_the_table() -> None:
+    deep = PartPair("block#2", "peg#1", "penetrating", 0.31, (0.0, 0.6, 0.8), "gjk+epa", 0, 7)
+    flush = PartPair("block#1", "peg#1", "touching", 0.0, (1.0, 0.0, 0.0), "exact", 15, 0)
+    remark = "no parts overlap where the bodies do; peg sticks out of its parts by up to 1"
+    made = PartPairs((2, 1), (deep, flush), 1, 0, 1)
+    finding = replace(SEPARATED, b="peg", part_pairs=made)
+    text = shown(finding, page=WIDE)
+    assert "\nblock (2 convex parts) and peg (1): 1 pair of parts overlaps\n" in text
+    assert (
+        "\n  block#2 x peg#1  penetrating  depth 0.31  axis (0, 0.6, 0.8)  gjk+epa, 7 iterations\n"
+        "  block#1 x peg#1  touching                 axis (1, 0, 0)      exact, 15 axes\n"
+    ) in text
+    many = replace(made, pairs=(deep,) * 9 + (flush,), overlapping=3_000, untested=2, remark=remark)
+    text = shown(replace(finding, part_pairs=many), page=WIDE)
+    assert "peg (1): 3,000 pairs of parts overlap\n" in text
+    assert text.count("block#2 x peg#1") == 8
+    assert f"\n  2,995 more pairs\n  {remark}\n" in text
+    none = PartPairs(remark="no convex parts: a half space has no end: peg")
+    text = shown(replace(finding, part_pairs=none), page=WIDE)
+    assert "\nblock and peg\n  no convex parts: a half space has no end: peg\n" in text
+    assert "peg" in shown(TOUCHING, finding)
+    assert "peg" not in shown(TOUCHING, replace(finding, part_pairs=PartPairs((2, 1))))
+
+
+def test_parts_have_the_names_of_the_table() -> None:
+    pair = PartPair("a/b#1#2", "a/c#1", "penetrating", 1.0, (1.0, 0.0, 0.0), "sat", 15, 0)
+    named = replace(PENETRATING, a="a/b#1", b="a/c", part_pairs=PartPairs((2, 1), (pair,), 1))
+    text = shown(named, page=WIDE)
+    assert "  a/b#1#2 x a/c#1  penetrating  depth 1  axis (1, 0, 0)  sat, 15 axes\n" in text
 
 
 def test_a_volume_that_was_asked_for() -> None:

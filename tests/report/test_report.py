@@ -65,6 +65,7 @@ FINDING_KEYS = [
     "volume_error",
     "contacts",
     "components",
+    "part_pairs",
     "motion",
     "certificate",
     "reason",

@@ -140,6 +140,7 @@ HONEST: dict[str, Callable[[Path], Json]] = {
     "concave": meshes(
         bracket(), unit_box(5.5, 0.5, 1.0), depth=True, contacts=True, components=True, volume=True
     ),
+    "with convex parts": meshes(bracket(), unit_box(5.5, 0.5, 1.0), parts=True),
     "thinner than deep": meshes(bracket(), unit_box(1.5, 1.5, 1.0, edge=2.0), depth=True),
     "apart": meshes(unit_box(), unit_box(3.0, 0.5, 0.25), clearance=1.0),
     "apart in a notch": meshes(bracket(), unit_box(2.5, 2.5, 1.0), clearance=0.25),

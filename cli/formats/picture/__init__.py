@@ -32,8 +32,9 @@ def render(
 ) -> str | bytes:
     """Return the picture of a report.
 
-    scene: that the report is about. split: a page shows convex parts, too. pose: of several that
-    one; None: a page shows all of them, another picture the worst.
+    scene: that the report is about. split: a page shows convex parts, too; a model has them if the
+    report does. pose: of several that one; None: a page shows all of them, another picture the
+    worst.
     """
     from satcheck.cli.formats.picture.slabs import with_slabs
 
@@ -42,7 +43,7 @@ def render(
         report, scene, moments = _of_poses(form, report, scene, pose)
         more = {"moments": moments} if form in ("html", "png") else {}
     scene = with_slabs(scene)
-    if split and form == "html":
+    if (form == "html" and split) or (form == "glb" and report.settings.parts):
         from satcheck.cli.formats.picture.parts import parts_of
 
         more["parts"] = parts_of(report, scene)

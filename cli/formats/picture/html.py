@@ -157,6 +157,7 @@ def _stated(finding: Finding, report: Report, middle: Floats) -> dict[str, Any]:
         "witness": witness and [_relative(witness.a, middle), _relative(witness.b, middle)],
         "ball": ball and {"centre": _relative(ball.centre, middle), "radius": ball.radius},
         "components": [_component(item, finding, middle) for item in items[:MOST_COMPONENTS]],
+        "parts": finding.part_pairs.overlapping_parts() if finding.part_pairs else ([], []),
         "more": max(len(items) - MOST_COMPONENTS, 0),
     }
 

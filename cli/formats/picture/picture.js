@@ -176,8 +176,8 @@ class Picture {
     if (view.others)
       for (const crowd of this.near) renderer.drawCrowd(crowd, [...OTHER, FAINT], [now.a, now.b], false);
     const [a, b] = [now.a, now.b].map((body) => this.shape(body, view.rung));
-    if (inner !== "a") this.body(a, A, view.move);
-    if (inner !== "b") this.body(b, B, STILL);
+    if (inner !== "a") this.body(a, A, view.move, now.parts[0]);
+    if (inner !== "b") this.body(b, B, STILL, now.parts[1]);
     if (inner) renderer.translucent(inner === "a" ? a : b, [...RED, 0.85]);
     else if (!own || now.overlaps) {
       renderer.overlap(a, view.move, b, STILL, [...RED, 0.85]);
@@ -208,12 +208,14 @@ class Picture {
     if (now.from) this.pointer(now.from, now.mtv, this.sphereAround([now.a, now.b])[1], view.ink);
   }
 
-  body(shape, colour, move) {
+  // overlapping: the numbers of the parts that overlap parts of the other body: reddish among pale ones.
+  body(shape, colour, move, overlapping) {
     const { renderer } = this;
     if (!shape.ranges) return renderer.translucent(shape, [...colour, 0.4], { move });
     hues(shape.ranges.length).forEach((hue, k) => {
-      const mixed = plus(times(hue, 0.6), times(colour, 0.4));
-      renderer.translucent(shape, [...mixed, 0.45], { move, range: shape.ranges[k] });
+      const overlaps = overlapping.includes(k + 1), pale = overlapping.length && !overlaps;
+      const mixed = plus(times(overlaps ? RED : pale ? colour : hue, 0.6), times(colour, 0.4));
+      renderer.translucent(shape, [...mixed, pale ? 0.2 : 0.45], { move, range: shape.ranges[k] });
     });
   }
 
