@@ -183,7 +183,7 @@ def gone_assets(baseline: Baseline, file: Path) -> Counter[str]:
     known, folder = Counter(filter(None, baseline.assets)), followed(file.parent)
 
     def is_there(asset: str) -> bool:
-        return exists(folder / asset) or all(exists(folder / f) for f in asset.split(", "))
+        return all(exists(folder / name) for name in files_of(asset, folder))
 
     return Counter({asset: n for asset, n in known.items() if not is_there(asset)})
 
@@ -395,21 +395,29 @@ def _read_once(path: Path, _: Signature) -> tuple[Baseline, FilesRead]:
         return read_baseline(path), files
 
 
-def files_of(asset: str) -> list[str]:
-    """The files of an asset of `satcheck batch`, which its name lists."""
-    return [asset] if exists(Path(asset)) else asset.split(", ")
+def files_of(asset: str, folder: Path = Path()) -> list[str]:
+    """The files of an asset of `satcheck batch`, which its name lists. folder: they are relative to
+    it. A comma may also be part of a name: of a file that exists."""
+    names = asset.split(", ")
+    files, begin = list[str](), 0
+    for end in range(1, len(names) + 1):
+        name = ", ".join(names[begin:end])
+        if exists(folder / name):
+            files.append(name)
+            begin = end
+    return files if begin == len(names) else names
 
 
-def asset_key(asset: str, baseline: Path) -> str:
+def asset_key(files: Iterable[str], baseline: Path) -> str:
     """The name of an asset in a baseline: its files, relative to the folder of the baseline, with
     `/`, so that it does not depend on where the command runs, nor on links that lead to a folder.
     """
     folder = followed(baseline.parent)
-    files = [followed(Path(file).parent) / Path(file).name for file in files_of(asset)]
-    return ", ".join(Path(os.path.relpath(file, folder)).as_posix() for file in files)
+    real = (followed(Path(file).parent) / Path(file).name for file in files)
+    return ", ".join(Path(os.path.relpath(file, folder)).as_posix() for file in real)
 
 
 def names_in_baseline(paths: Sequence[str], baseline: Path) -> tuple[str, ...]:
     """What a baseline may call the input of a plain check: as the asset of these files that
     `satcheck batch` checks, whose bodies have the same ids, or not at all."""
-    return (asset_key(", ".join(paths), baseline), "")
+    return (asset_key(paths, baseline), "")

@@ -44,7 +44,7 @@ class SampleResults:
         self.settings, self.lists_all = settings, lists_all
         self.cache = BodyCache()
         if scene.robots and settings.planar is None:  # else the meshes are those of one pose
-            self.cache.meshes = scene.robots[0].kept.setdefault(SharedMesh.terms(settings), {})
+            self.cache.meshes = scene.robots[0].kept.meshes(SharedMesh.terms(settings))
         self.first: Report | None = None
         self.by_verdict: Counter[Verdict] = Counter()
         self.listed: list[SampledPose] = []

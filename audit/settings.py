@@ -69,11 +69,11 @@ class Settings(StatedSettings, frozen=True, kw_only=True):
                 continue
             plain = value.item() if hasattr(value, "item") else value  # a numpy scalar
             try:
-                convert(plain, kind)
+                converted = convert(plain, kind)
             except ValidationError as error:
                 raise _refused(f"{name}: {_reason(error, kind)}, not {value!r}") from None
-        if isinstance(self.accept, list):
-            force_setattr(self, "accept", tuple(self.accept))
+            if plain is not value or isinstance(converted, tuple):
+                force_setattr(self, name, converted)  # settings are the key of what they imply
         for name in ("contacts", "components", "volume", "cross_check", "parts"):
             if not getattr(self, name):
                 continue

@@ -10,7 +10,7 @@ import msgspec
 from msgspec.structs import replace
 
 from satcheck.core import Mesh, Polytope
-from satcheck.core.mesh_arrays import MeshLike, arrays_of
+from satcheck.core.mesh_arrays import MeshLike, arrays_of, require_usable
 from satcheck.decompose import errors
 from satcheck.decompose.cache import Cache
 from satcheck.decompose.errors import DecompositionError
@@ -62,6 +62,7 @@ def decompose(
 
 def _mesh_of(mesh: MeshLike) -> Mesh:
     vertices, faces = arrays_of(mesh)
+    require_usable(vertices, faces)
     return Mesh(vertices.astype("<f8"), faces.astype("<u4"))
 
 

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.acceptance import UNUSED_ACCEPTANCE
 from satcheck.audit.baseline import asset_key, beside_baseline, current_baseline
-from satcheck.audit.batch.options import CheckOptions, World, name_of
+from satcheck.audit.batch.options import CheckOptions, World, named_files
 from satcheck.audit.bodies import UNUSED_RULE
 from satcheck.audit.check import check
 from satcheck.audit.messages import with_messages
@@ -47,7 +47,7 @@ def check_world(world: World, options: CheckOptions, *, known: KnownMeshes | Non
     with step(f"checking {file}"):
         report = _report(world, options, known)
     if options.baseline is not None:
-        report = _beside(report, name_of(world), Path(options.baseline))
+        report = _beside(report, world, Path(options.baseline))
     return asset(file, replace(report, config=options.config))
 
 
@@ -92,9 +92,9 @@ def beside_assets(issue: Issue) -> Asset:
     return asset(issue.file or "the batch", _without_bodies([issue]))
 
 
-def _beside(report: Report, file: str, baseline: Path) -> Report:
-    known = current_baseline(baseline)
-    return beside_baseline(report, known, str(baseline), (asset_key(file, baseline),))
+def _beside(report: Report, world: World, baseline: Path) -> Report:
+    known, name = current_baseline(baseline), asset_key(named_files(world), baseline)
+    return beside_baseline(report, known, str(baseline), (name,))
 
 
 def _load(world: World, options: CheckOptions, known: KnownMeshes | None) -> Scene:

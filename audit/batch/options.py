@@ -23,12 +23,16 @@ SettingValue = bool | int | float | str | tuple[str, ...] | Length | None
 _SHORTEST_SECONDS = 1e-3
 
 
+def named_files(world: World) -> World:
+    """Return the files that the world is called by, as an asset."""
+    folder, *files = world
+    has_foreign = files and all(Path(name).is_relative_to(folder) for name in files)
+    return (folder,) if has_foreign else world  # files in it that no reader knows
+
+
 def name_of(world: World) -> str:
     """Return what a report calls the world as an asset: its files."""
-    folder, *files = world
-    if files and all(Path(name).is_relative_to(folder) for name in files):
-        return folder  # with files in it that no reader knows
-    return ", ".join(world)
+    return ", ".join(named_files(world))
 
 
 class CheckOptions(LoadOptions, frozen=True, kw_only=True):

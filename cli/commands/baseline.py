@@ -12,6 +12,7 @@ from satcheck.audit.baseline import (
     GONE_ASSETS,
     absent_from,
     asset_key,
+    files_of,
     gone_assets,
     known_findings,
     known_undecided,
@@ -20,6 +21,7 @@ from satcheck.audit.baseline import (
     read_baseline,
     updated,
 )
+from satcheck.audit.batch.options import named_files
 from satcheck.audit.batch.stored import ENDINGS, StoredResults
 from satcheck.audit.words import counted
 from satcheck.cli import option
@@ -142,7 +144,7 @@ def _refuse_unmeasured(before: Baseline, after: Baseline) -> None:
 def _names(asset: str, report: Report, file: Path) -> set[str]:
     """Return what a baseline may call the input of a report. asset: "" for a plain check."""
     homes = {each.stated_at.file if each.stated_at else each.file for each in report.bodies}
-    return {asset, asset_key(homes.pop(), file)} if not asset and len(homes) == 1 else {asset}
+    return {asset, asset_key(homes, file)} if not asset and len(homes) == 1 else {asset}
 
 
 def _named(
@@ -155,7 +157,7 @@ def _named(
         a, b = bodies[finding.a], bodies[finding.b]
         homes = {each.stated_at.file if each.stated_at else each.file for each in (a, b)}
         is_one = len(homes) == 1 and (a.stated_at is not None or a.path != b.path)
-        under = replace(finding, asset=asset_key(homes.pop(), file))
+        under = replace(finding, asset=asset_key(homes, file))
         yield under if is_one and not finding.asset and under.asset in known else finding
 
 
@@ -192,7 +194,7 @@ def _named_reports(paths: Sequence[Path], file: Path) -> Iterator[tuple[str, Rep
         else:
             _tell(document.issues)
             for asset in document.assets:
-                yield asset_key(asset.file, file), asset.report
+                yield asset_key(files_of(asset.file), file), asset.report
 
 
 def _tell(issues: Iterable[Issue]) -> None:
@@ -210,4 +212,4 @@ def _of_results(path: Path, file: Path) -> Iterator[tuple[str, Report]]:
     with StoredResults([path]) as results:
         _tell(results.issues)
         for each in results:
-            yield asset_key(each.asset.file, file), each.asset.report
+            yield asset_key(named_files(each.files), file), each.asset.report

@@ -37,17 +37,43 @@ class RobotBody(Struct, frozen=True):
     groups: tuple[str, ...] = ()
 
 
+class Kept:
+    """What a check of poses derives from the meshes of a robot, for the next one. It is no part of
+    the robot: a copy begins without it, and all are equal."""
+
+    def __init__(self) -> None:
+        self._terms: object = None
+        self._meshes: dict[Any, Any] = {}
+
+    def meshes(self, terms: object) -> dict[Any, Any]:
+        """Return the meshes. terms: what they depend on; others are no longer kept."""
+        if terms != self._terms:
+            self._terms, self._meshes = terms, {}
+        return self._meshes
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Kept)
+
+    def __hash__(self) -> int:
+        return hash(Kept)
+
+    def __repr__(self) -> str:
+        return "Kept()"
+
+    def __reduce__(self) -> tuple[type[Kept], tuple[()]]:
+        return Kept, ()
+
+
 class SceneRobot(Struct, frozen=True):
     """A robot, its bodies, and its SRDF. groups: as the robot names them -> as the check does.
-    loose: its bodies stand where a document places them, so they may be moved without it. kept:
-    what checks of its poses derive from meshes, for later ones."""
+    loose: its bodies stand where a document places them, so they may be moved without it."""
 
     robot: Robot
     bodies: tuple[RobotBody, ...]
     srdf: Srdf | None = None
     groups: Mapping[str, str] = {}
     loose: bool = False
-    kept: dict[Any, Any] = field(default_factory=dict)
+    kept: Kept = field(default_factory=Kept)
 
     @property
     def states(self) -> tuple[State, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import pickle
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -53,6 +54,13 @@ def test_each_pose_has_the_verdict_of_a_check_of_its_own() -> None:
         given = {name: list(values) for name, values in pose.items()}
         stated = {name: [v] if isinstance(v, float) else v for name, v in sample.pose.items()}
         assert stated.items() >= given.items()
+
+
+def test_a_checked_robot_is_equal_to_a_fresh_one_and_can_be_sent() -> None:
+    arm = load_scene([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"])
+    check_poses(arm, poses(), QUICK)
+    assert arm.robots == ARM.robots
+    assert pickle.loads(pickle.dumps(arm.robots)) == arm.robots
 
 
 def test_in_a_plane_each_pose_has_outlines_of_its_own() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from satcheck.audit import Settings
@@ -37,6 +38,11 @@ def test_a_refusal_names_the_words_that_a_setting_takes():
         Settings(clearance=-1)
     with pytest.raises(SatcheckError, match="planar: one of xy, yz, xz expected, not 'x'"):
         Settings(planar="x")
+
+
+def test_settings_are_a_key_however_they_are_given():
+    given = Settings(clearance=np.array(1.0), accept=["unread-file"])  # type: ignore[arg-type]
+    assert {given} == {Settings(clearance=1.0, accept=("unread-file",))}
 
 
 def test_what_changes_no_answer_is_not_in_the_report():

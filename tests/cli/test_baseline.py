@@ -9,7 +9,15 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit.baseline import absent_from, asset_key, beside_baseline, known_findings, updated
+from satcheck.audit.baseline import (
+    absent_from,
+    asset_key,
+    beside_baseline,
+    files_of,
+    gone_assets,
+    known_findings,
+    updated,
+)
 from satcheck.report.baseline import Baseline, KnownFinding
 from satcheck.report.report import Finding, Relation, Report, RuleReport
 from satcheck.report.sweep import WorstPose
@@ -228,8 +236,20 @@ def test_links_to_folders_do_not_change_a_key(tmp_path: Path) -> None:
     (tmp_path / "parts").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "parts")
     known = tmp_path / "known.json"
-    assert asset_key(str(tmp_path / "link" / "a.glb"), known) == "parts/a.glb"
-    assert asset_key(str(tmp_path / "parts" / "a.glb"), tmp_path / "link" / "b.json") == "a.glb"
+    assert asset_key([str(tmp_path / "link" / "a.glb")], known) == "parts/a.glb"
+    assert asset_key([str(tmp_path / "parts" / "a.glb")], tmp_path / "link" / "b.json") == "a.glb"
+
+
+def test_a_comma_may_be_part_of_the_name_of_a_file(tmp_path: Path) -> None:
+    for name in ("p, q.obj", "r.obj"):
+        (tmp_path / name).write_text("")
+    known = tmp_path / "known.json"
+    key = asset_key([str(tmp_path / "p, q.obj"), str(tmp_path / "r.obj")], known)
+    assert files_of(key, tmp_path) == ["p, q.obj", "r.obj"]
+    baseline = Baseline(findings=(replace(KNOWN, asset=key),))
+    assert not gone_assets(baseline, known)
+    (tmp_path / "r.obj").unlink()
+    assert gone_assets(baseline, known) == {key: 1}
 
 
 class Repository:

@@ -112,6 +112,7 @@ pairs: (pose, i, j, margin) each, of the numbers of a pose and of two bodies. bo
   m.def(
       "open_hole",
       [](PosedBody& a, const Matrix12& at_a, PosedBody& b, const Matrix12& at_b) {
+        const nb::gil_scoped_release release;  // a thread that makes a hull polls while it holds the body
         return open_hole(a, at_a.data(), b, at_b.data());
       },
       "a"_a, "matrix_a"_a.noconvert(), "b"_a, "matrix_b"_a.noconvert(),
