@@ -528,6 +528,15 @@ def test_a_folder_of_accepted_files_is_no_asset(tmp_path: Path) -> None:
     assert (ran.code, ran.out) == (0, "PASS: 1 asset: 1 passes, 2 issues accepted.\n")
 
 
+@pytest.mark.parametrize("content", [b"", b"\n \r\n", b"\0" * 512])
+def test_a_scene_whose_content_is_lost_is_an_error(assets: Path, content: bytes) -> None:
+    for name in ("level.toml", "level.json"):
+        (assets / name).write_bytes(content)
+    ran = satcheck("batch", ".", "--format", "json", cwd=assets)
+    lost = {"level.toml": "error", "level.json": "error"}
+    assert verdicts(ran.out) == {"gripper.glb": "fail", "box.obj": "pass", **lost}
+
+
 RULES = '[[rules]]\na = "box"\nb = "box_pushed"\nallowed = true\nreason = "a press fit"\n'
 
 

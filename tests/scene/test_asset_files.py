@@ -80,7 +80,7 @@ def test_an_unreadable_scene_is_an_asset(tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_a_file_beyond_the_limit_counts_as_its_reader_has_to_refuse_it(tmp_path: Path) -> None:
     (tmp_path / "a.obj").touch()
-    (tmp_path / "data.json").write_bytes(b" " * 300_000)
+    (tmp_path / "data.json").write_bytes(b"1" * 300_000)
     assert len(asset_files([str(tmp_path)]).files) == 1
     assert len(asset_files([str(tmp_path)], (), Permitted(megabytes=1)).files) == 2
 
