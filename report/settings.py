@@ -33,7 +33,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     contacts: Where surfaces meet: curves, flush patches, points.
     components: The connected parts of each overlap: place, thickness, and whether a body passes
     through the other there.
-    parts: The convex parts of bodies that meet, and which of them overlap. They change no verdict.
+    parts: The convex parts of close bodies, and which of them overlap. They change no verdict.
     clearance: Pairs with a smaller gap fail; shows the gap.
     tolerance: A gap or a depth up to this counts as touching.
     max_thickness: Overlaps (interferences) no thicker than this pass.

@@ -166,12 +166,15 @@ def part_lines(page: Page, findings: Sequence[Finding]) -> list[str]:
             title = f"{finding.a} ({first}) and {finding.b} ({second:,}): "
             verb = "overlaps" if found.overlapping == 1 else "overlap"
             pairs = f"{counted(found.overlapping, 'pair')} of parts {verb}"
-            title += pairs if found.overlapping else "no parts overlap"
+            is_open = found.undecided or found.untested
+            none = "no overlap of parts was found" if is_open else "no parts overlap"
+            title += pairs if found.overlapping else none
         lines += fitted(title, page, BOLD)
         rows = [_part_row(pair, finding) for pair in found.pairs[:MOST_PART_PAIRS]]
         lines += aligned(rows, page) if rows else []
-        rest = found.overlapping + found.touching + found.undecided + found.untested
+        rest = found.overlapping + found.touching + found.undecided
         lines += _more(rest - min(len(found.pairs), MOST_PART_PAIRS), "{}", "more pair")
+        lines += _more(found.untested, "{} of parts not tested", "pair")
         if found.remark is not None:
             lines += fitted(f"  {found.remark}", page, YELLOW)
     return lines

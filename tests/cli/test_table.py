@@ -178,7 +178,9 @@ def test_parts_below_the_table() -> None:
     text = shown(replace(finding, part_pairs=many), page=WIDE)
     assert "peg (1): 3,000 pairs of parts overlap\n" in text
     assert text.count("block#2 x peg#1") == 8
-    assert f"\n  2,995 more pairs\n  {remark}\n" in text
+    assert f"\n  2,993 more pairs\n  2 pairs of parts not tested\n  {remark}\n" in text
+    untested = replace(finding, part_pairs=PartPairs((2, 1), untested=2))
+    assert "peg (1): no overlap of parts was found\n" in shown(untested, page=WIDE)
     none = PartPairs(remark="no convex parts: a half space has no end: peg")
     text = shown(replace(finding, part_pairs=none), page=WIDE)
     assert "\nblock and peg\n  no convex parts: a half space has no end: peg\n" in text

@@ -239,6 +239,13 @@ def test_a_mesh_that_cannot_be_split_leaves_the_verdict(tmp_path):
     assert [issue.body for issue in report.issues if issue.severity == "warning"] == ["a"]
 
 
+def test_parts_that_the_tolerance_hides_are_no_error_of_theirs(tmp_path, monkeypatch):
+    monkeypatch.setattr(part_pairs, "_relation", lambda *_: "touching")
+    finding = only(check(scene_of(tmp_path, a=bracket(), b=unit_box(5.5, 0.5, 1.0)), QUICK))
+    assert finding.relation == "penetrating"
+    assert parts_of(finding).remark == "parts only touch where the bodies overlap"
+
+
 def test_the_deepest_are_listed_and_all_are_counted(tmp_path, monkeypatch):
     scene = placed(tmp_path, bracket(), bracket(), turned(1.0, 1.0, 1.0))
     whole = parts_of(only(check(scene, QUICK)))
