@@ -193,4 +193,6 @@ def _holds(path: Path, marks: tuple[bytes, ...], permitted: Permitted) -> bool:
     """Return whether a file holds one of these texts, or cannot be read, or is blank: its content
     may be lost."""
     content = content_of(path, permitted)
-    return not (content and content.strip(b"\0 \t\r\n")) or any(mark in content for mark in marks)
+    if content is None or any(mark in content for mark in marks):
+        return True
+    return not content.strip(b"\0 \t\r\n")
