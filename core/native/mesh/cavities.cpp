@@ -1,9 +1,11 @@
 #include "mesh/cavities.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "exact/exact_point.hpp"
@@ -57,32 +59,39 @@ class Cavities {
   std::optional<std::uint32_t> solid_of(std::uint32_t wall, const std::vector<std::uint32_t>& solids) {
     std::optional<std::uint32_t> at = next_around(wall);
     while (at && volumes_[*at] < 0) at = solids[*at] == *at ? std::nullopt : next_around(solids[*at]);
-    if (at && crosses_others(mesh_, bvh_, components_, wall, members_[wall], budget_)) return std::nullopt;
-    return at;
+    const auto is_wall = [&](std::uint32_t c) { return volumes_[c] < 0; };
+    return std::any_of(crossed(wall).begin(), crossed(wall).end(), is_wall) ? std::nullopt : at;
   }
 
-  // The innermost component around this one has the others around it too.
+  // The innermost component around this one has the others around it too, but for those that it crosses.
   std::optional<std::uint32_t> next_around(std::uint32_t component) {
     const Around around = around_of(component);
     if (!around) return std::nullopt;
     for (const std::uint32_t c : *around) {
       spend(budget_, kListedWork * around->size());
-      if (const Around& beyond = around_of(c); !beyond || beyond->size() + 1 != around->size()) continue;
-      std::vector<std::uint32_t> others = *around;
+      if (const Around& beyond = around_of(c); !beyond || beyond->size() >= around->size()) continue;
+      std::vector<std::uint32_t> others;
+      std::set_difference(around->begin(), around->end(), crossed(c).begin(), crossed(c).end(), std::back_inserter(others));
       std::erase(others, c);
       if (around_of(c) == others) return c;
     }
     return std::nullopt;
   }
 
-  // The closed components around a point of this one.
+  const std::vector<std::uint32_t>& crossed(std::uint32_t component) {
+    const auto [at, is_new] = crossed_.try_emplace(component);
+    if (is_new) at->second = crossed_sets(mesh_, bvh_, components_, component, members_[component], budget_);
+    return at->second;
+  }
+
+  // The closed components around this one, of those that it does not cross: around one of its points.
   const Around& around_of(std::uint32_t component) {
     const auto [at, is_new] = around_.try_emplace(component);
     if (is_new) at->second = find_around(component);
     return at->second;
   }
 
-  Around find_around(std::uint32_t component) const {
+  Around find_around(std::uint32_t component) {
     for (const std::uint32_t t : members_[component]) {
       const Corners c = corners(mesh_, t);
       const LazyPoint point = lazy_centroid(c);
@@ -91,18 +100,20 @@ class Cavities {
       const Heading first = nearest_wall(bvh_.nodes[0].box, point.rounded);
       for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
         const Vec3 far = outside_point(bvh_.nodes[0].box, point.rounded, first, attempt);
-        if (Around around = crossed(component, point, far)) return around;
+        if (Around around = enclosing(component, point, far)) return around;
       }
     }
     return std::nullopt;
   }
 
-  // The closed components that the segment crosses more often one way than the other. Empty if it meets an edge.
-  Around crossed(std::uint32_t besides, const LazyPoint& from, Vec3 far) const {
+  // Those that the segment passes more often one way than the other. Empty if it meets an edge.
+  Around enclosing(std::uint32_t component, const LazyPoint& from, Vec3 far) {
     std::map<std::uint32_t, int> windings;
+    const std::vector<std::uint32_t>& besides = crossed(component);
     const auto counts = [&](std::uint32_t t) {
       spend(budget_, kTriangleWork);
-      return of_triangle_[t] != besides && !open_[of_triangle_[t]];
+      const std::uint32_t other = of_triangle_[t];
+      return other != component && !open_[other] && !std::binary_search(besides.begin(), besides.end(), other);
     };
     const auto add = [&](std::uint32_t t, int crossing) { windings[of_triangle_[t]] += crossing; };
     if (!visit_crossings(mesh_, bvh_, from, far, counts, add, budget_)) return std::nullopt;
@@ -122,19 +133,25 @@ class Cavities {
   std::vector<double> volumes_;  // 0: open
   Bvh bvh_;
   std::map<std::uint32_t, Around> around_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> crossed_;
 };
 
 }  // namespace
 
-bool crosses_others(const Mesh& mesh, const Bvh& bvh, const Labels& sets, std::uint32_t set,
-                    const std::vector<std::uint32_t>& members, Budget* budget) {
-  return std::any_of(members.begin(), members.end(), [&](std::uint32_t t) {
+std::vector<std::uint32_t> crossed_sets(const Mesh& mesh, const Bvh& bvh, const Labels& sets, std::uint32_t set,
+                                        const std::vector<std::uint32_t>& members, Budget* budget) {
+  std::set<std::uint32_t> crossed;
+  for (const std::uint32_t t : members) {
     const Corners mine = corners(mesh, t);
-    return !visit_box(bvh, mesh, bounds_of(mine), [&](std::uint32_t u) {
+    visit_box(bvh, mesh, bounds_of(mine), [&](std::uint32_t u) {
       spend(budget, kTriangleWork);
-      return sets.of_triangle[u] == set || classify(mine, corners(mesh, u), budget) != TriangleContact::crossing;
+      const std::uint32_t other = sets.of_triangle[u];
+      if (other == set || crossed.contains(other)) return true;
+      if (classify(mine, corners(mesh, u), budget) == TriangleContact::crossing) crossed.insert(other);
+      return true;
     }, budget);
-  });
+  }
+  return {crossed.begin(), crossed.end()};
 }
 
 std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components, Budget* budget) {

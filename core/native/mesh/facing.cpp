@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/patches.hpp"
@@ -120,14 +121,18 @@ class Nesting {
     }
   }
 
-  // Whether the patch is inside, or on the surface of, other solids.
-  bool is_nested(std::uint32_t patch) { return winding_around(patch, solids_) != 0 && !crosses_another(patch); }
+  // Whether the patch is inside, or on the surface of, other solids that it does not cross. If two such patches face inward
+  // and cross, neither is: winding numbers would cancel in both.
+  bool is_nested(std::uint32_t patch) {
+    return is_within(patch) && !std::any_of(crossed(patch).begin(), crossed(patch).end(), [&](std::uint32_t other) {
+      return patches_[other].volume < 0 && is_within(other);
+    });
+  }
 
-  // Whether the patch is inside others that are turned, and solid there. It then turns with them: a cavity stays one, and
-  // so does a solid. turned: shells, ascending.
+  // Whether the patch is inside others that are turned, and solid there; those that it crosses do not count. It then turns
+  // with them: a cavity stays one, and so does a solid. turned: shells, ascending.
   bool turns_along(std::uint32_t patch, const std::vector<std::uint32_t>& turned) {
-    return winding_around(patch, turned).value_or(0) < 0 && winding_around(patch, solids_).value_or(0) < 0 &&
-           !crosses_another(patch);
+    return winding_within(patch, turned).value_or(0) < 0 && winding_within(patch, solids_).value_or(0) < 0;
   }
 
   // Whether the patch faces inward, and lies in no other solid.
@@ -150,14 +155,28 @@ class Nesting {
     });
   }
 
-  // Fills are not asked: they may be elsewhere.
-  bool crosses_another(std::uint32_t patch) {
-    std::vector<std::uint32_t> members = patches_[patch].triangles;
-    members.erase(std::lower_bound(members.begin(), members.end(), own_.triangles.size()), members.end());
-    return crosses_others(own_, own_tree(), labels_, patch, members, budget_);
+  // The other patches that the patch crosses. Fills are not asked: they may be elsewhere.
+  const std::vector<std::uint32_t>& crossed(std::uint32_t patch) {
+    const auto [at, is_new] = crossed_.try_emplace(patch);
+    if (is_new) {
+      std::vector<std::uint32_t> members = patches_[patch].triangles;
+      members.erase(std::lower_bound(members.begin(), members.end(), own_.triangles.size()), members.end());
+      at->second = crossed_sets(own_, own_tree(), labels_, patch, members, budget_);
+    }
+    return at->second;
   }
 
  private:
+  bool is_within(std::uint32_t patch) { return winding_within(patch, solids_) != 0; }
+
+  // The winding number around the patch of those solids that it does not cross.
+  std::optional<int> winding_within(std::uint32_t patch, std::vector<std::uint32_t> solids) {
+    std::set<std::uint32_t> groups;
+    for (const std::uint32_t other : crossed(patch)) groups.insert(patches_[other].group);
+    std::erase_if(solids, [&](std::uint32_t other) { return groups.contains(patches_[other].group); });
+    return winding_around(patch, solids);
+  }
+
   bool is_on_rim(std::uint32_t triangle) const { return triangle < on_rim_.size() && on_rim_[triangle]; }
 
   // The winding number of other solids around the shell; none: it lies on their surface. Only solids whose boxes contain it
@@ -198,6 +217,7 @@ class Nesting {
   std::vector<std::uint32_t> solids_;  // ascending
   std::vector<bool> on_rim_;
   Bvh bvh_, own_bvh_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> crossed_;  // by patch
 };
 
 std::vector<Patch> make_patches(const Labels& labels) {
@@ -226,7 +246,7 @@ using Solid = std::vector<std::uint32_t>;
 bool has_to_turn(const Solid& solid, const std::vector<Patch>& patches, Nesting& nesting) {
   const Patch& first = patches[solid[0]];
   if (!(first.volume < 0) || (first.open && !first.shell)) return false;
-  if (first.open) return nesting.crosses_another(solid[0]) && !nesting.ends_near_another(solid[0]);
+  if (first.open) return !nesting.crossed(solid[0]).empty() && !nesting.ends_near_another(solid[0]);
   return !std::all_of(solid.begin(), solid.end(), [&](std::uint32_t p) { return nesting.is_nested(p); });
 }
 

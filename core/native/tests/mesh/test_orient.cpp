@@ -174,6 +174,27 @@ void compounds() {
   for (const double x : {2.25, 2.75, 3.5, 4.5}) CHECK(winding_number(solid, {x, 3, 1.125}).value_or(0) > 0);
 }
 
+// A bolt through the wall of a tank, or of both of its walls, fills none of the cavity but its own place.
+void bolts() {
+  for (int round = 0; round < 16; ++round) {
+    const bool tank_inward = round & 1, wall_inward = round & 2, bolt_inward = round & 4, outside = round & 8;
+    if (bolt_inward && !outside) continue;  // two parts that face inward in the tank and cross: all counts as material
+    const auto wound = [](const Mesh& mesh, bool inward) { return inward ? reversed(mesh) : mesh; };
+    Mesh all = box({20, 0, 0}, {60, 40, 40});  // so that most of the volume faces outward
+    append(all, wound(box({-5, -5, -5}, {5, 5, 5}), tank_inward));
+    append(all, wound(box({-4, -4, -4}, {4, 4, 4}), wall_inward));
+    append(all, wound(box({3, -1, -1}, {outside ? 7.0 : 4.5, 1, 1}), bolt_inward));
+    const Surface solid = make_surface(orient(all), false);
+    const auto at = [&](Vec3 point) { return winding_number(solid, point).value_or(0); };
+    // What faces outward within a tank that faces inward may be solid or not.
+    CHECK(solid.solid == !(tank_inward && !(wall_inward && outside)));
+    if (!solid.solid) continue;
+    CHECK(at({-4.5, 0.3, 0.1}) != 0 && at({4.25, 0.3, 0.1}) != 0 && at({3.5, 0.3, 0.1}) != 0);
+    CHECK((at({0, 0.3, 0.1}) != 0) == (tank_inward == wall_inward));
+    CHECK((at({6, 0.3, 0.1}) != 0) == outside);
+  }
+}
+
 // All faces of a box lie within faces of the boxes beside it, which do not say what lies around it.
 void between_others() {
   const Aabb boxes[] = {{{0, 0, 0}, {9, 9, 9}}, {{2, 2, 2}, {4, 4, 4}}, {{4, 1, 2}, {5, 4, 4}}, {{1, 2, 2}, {2, 5, 4}},
@@ -228,6 +249,7 @@ UNIT(orient) {
   caves();
   rooms();
   compounds();
+  bolts();
   between_others();
   one_sided();
   copies();
