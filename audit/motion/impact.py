@@ -175,17 +175,26 @@ class _Scan:
         return self._offsets.safe_time(self.t, end)
 
     def impact(self) -> Impact:
-        if self.reason is None:
-            return Impact(1.0, None, 1.0, self.contact, gap=self._gaps[-1])
         try:
-            upper = _first_overlap(self._pair, self.t)
+            upper = self._inside_at_rest() if self.reason is None else _first_overlap(self._pair, self.t)
         except Unanswerable as why:
             return Impact(self.t, None, self.t, self.contact, str(why))
+        if upper is None and self.reason is None:
+            return Impact(1.0, None, 1.0, self.contact, gap=self._gaps[-1])
         if upper is None:
             return Impact(self.t, None, self.t, self.contact, self.reason)
         # If the budget ended before a contact, they stay apart until t.
         contact = self.t if self.contact is None else self.contact
-        return Impact(self.met, upper, self.t, contact)
+        return Impact(min(self.met, upper), upper, min(self.t, upper), contact)
+
+    def _inside_at_rest(self) -> float | None:
+        """The start or the end of the motion, if the bodies touch on the way and this pose fails at
+        rest, where the tolerance may be smaller than the touch band of the sweep."""
+        tolerance = self._pair.pair.tolerance
+        if self.contact is None or tolerance >= self._pair.tolerance:
+            return None
+        ends = (t for t in (0.0, 1.0) if overlaps(self._pair.found_at(t, tolerance=tolerance)))
+        return next(ends, None)
 
     def _advance(self, step: float, end: float) -> bool:
         """Moves t on by the step, which is proven. Returns whether it is a long one."""

@@ -214,9 +214,14 @@ class MovingPair:
             moves=None,
         )
 
-    def found_at(self, t: float, clearance: float | None = None) -> Finding:
-        """The finding at t, exact for the poses rounded to float64. clearance: it has to keep."""
+    def found_at(
+        self, t: float, clearance: float | None = None, tolerance: float | None = None
+    ) -> Finding:
+        """The finding at t, exact for the poses rounded to float64. clearance: it has to keep.
+        tolerance: instead of the touch band of the sweep."""
         placed = self.placed(t)
+        if tolerance is not None:
+            placed = replace(placed, request=replace(placed.request, tolerance=tolerance))
         if clearance:
             by = {**placed.request.by, "distance": ALWAYS}
             request = replace(placed.request, by=by, clearance=clearance)
