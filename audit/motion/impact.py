@@ -176,7 +176,11 @@ class _Scan:
 
     def impact(self) -> Impact:
         try:
-            upper = self._inside_at_rest() if self.reason is None else _first_overlap(self._pair, self.t)
+            upper = (
+                self._inside_at_rest()
+                if self.reason is None
+                else _first_overlap(self._pair, self.t)
+            )
         except Unanswerable as why:
             return Impact(self.t, None, self.t, self.contact, str(why))
         if upper is None and self.reason is None:

@@ -82,12 +82,12 @@ def test_as_near_as_the_tolerance_is_a_touch(rise):
     assert (found.distance_at_least == 0.125) is (rise < 0.875)
 
 
-@pytest.mark.parametrize("ulps", [0, 1, 3])
+@pytest.mark.parametrize("ulps", [0, 2, 4])
 def test_where_the_motion_ends_decides_as_at_rest(ulps):
     """Although the touch band of a sweep is as wide as the rounding of poses."""
     way = 1.0 + ulps * math.ulp(1.0)
     found = swept(unit_box(), Translation((way, 0.0, 0.0)), unit_box(2, 0, 0), tolerance=0.0)
-    assert found.tolerance > 3 * math.ulp(1.0)
+    assert found.tolerance > 4 * math.ulp(1.0)
     assert found.relation == ("penetrating" if ulps else "touching")
     assert found.time_of_impact is None or found.time_of_impact[1] == 1.0
 
