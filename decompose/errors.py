@@ -45,8 +45,8 @@ class Deadline:
     def error(self) -> DecompositionError:
         return DecompositionError(
             TIMEOUT,
-            f"no convex parts after {self.seconds:g} s; raise the limit (`satcheck decompose "
-            "--limit body-seconds=N`) or the threshold (`--threshold`)",
+            f"no convex parts after {self.seconds:g} s; raise the limit (`--limit body-seconds=N`)"
+            " or the threshold (`satcheck decompose --threshold`)",
         )
 
 

@@ -185,7 +185,7 @@ units split sample explain version"""
 @click.option("-q", "--quiet", is_flag=True, help="Print errors only; -o still writes the report.")
 @option.exit_zero
 @scene_option.units
-@scene_option.reading()
+@scene_option.reading("body-seconds")
 @scene_option.package
 @scene_option.geometry
 @scene_option.poses
@@ -214,6 +214,7 @@ def command(
 ) -> int:
     """Check bodies, or robots in many poses. The exit code is returned."""
     inputs = Inputs.taken_from(options)
+    options["part_seconds"] = inputs.limit["body-seconds"]
     refuse_early(inputs, outputs, baseline)
     to = Delivery(
         targets_of(form, outputs, FORMATS), quiet, exit_zero, options["timings"], top, explain

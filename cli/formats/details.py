@@ -25,7 +25,7 @@ from satcheck.scene.words import listed
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.report.contacts import Component
-    from satcheck.report.part_pairs import PartPair
+    from satcheck.report.part_pairs import PartPair, PartPairs
     from satcheck.report.regions import InsideFinding, Regions
     from satcheck.report.report import BodyReport, EffectReport, Finding, Report
     from satcheck.report.statics import BodyIsland, Statics, SupportedBody, SupportFinding
@@ -154,29 +154,42 @@ def facts(item: Component, finding: Finding) -> Iterator[str]:
 
 
 def part_lines(page: Page, findings: Sequence[Finding]) -> list[str]:
-    """The lines between the table and the remarks: the deepest pairs of parts of each pair."""
+    """The lines between the table and the remarks: the deepest pairs of parts of each pair. What
+    several pairs have in common is said once."""
+    split = [(finding, found) for finding in findings if (found := finding.part_pairs)]
     lines: list[str] = []
-    for finding in findings:
-        found = finding.part_pairs
-        if found is None:
-            continue
-        title = f"{finding.a} and {finding.b}"
-        if found.known:
-            first, second = counted(found.parts[0], "convex part"), found.parts[1]
-            title = f"{finding.a} ({first}) and {finding.b} ({second:,}): "
-            verb = "overlaps" if found.overlapping == 1 else "overlap"
-            pairs = f"{counted(found.overlapping, 'pair')} of parts {verb}"
-            is_open = found.undecided or found.untested
-            none = "no overlap of parts was found" if is_open else "no parts overlap"
-            title += pairs if found.overlapping else none
-        lines += fitted(title, page, BOLD)
-        rows = [_part_row(pair, finding) for pair in found.pairs[:MOST_PART_PAIRS]]
-        lines += aligned(rows, page) if rows else []
-        rest = found.overlapping + found.touching + found.undecided
-        lines += _more(rest - min(len(found.pairs), MOST_PART_PAIRS), "{}", "more pair")
-        lines += _more(found.untested, "{} of parts not tested", "pair")
-        if found.remark is not None:
-            lines += fitted(f"  {found.remark}", page, YELLOW)
+    without: dict[str, int] = {}  # pairs of bodies, by why they have no parts
+    unlisted = 0
+    for finding, found in split:
+        if not found.known and found.remark is not None:
+            without[found.remark] = without.get(found.remark, 0) + 1
+        elif found.pairs or found.remark is not None or found.untested or len(split) == 1:
+            lines += _parts_of(finding, found, page)
+        else:
+            unlisted += 1
+    if unlisted:
+        lines += fitted(f"{counted(unlisted, 'pair')} with no parts that overlap", page)
+    for why, count in without.items():
+        said = why if len(split) == 1 else f"{why} ({counted(count, 'pair')})"
+        lines += fitted(said, page, YELLOW)
+    return lines
+
+
+def _parts_of(finding: Finding, found: PartPairs, page: Page) -> list[str]:
+    first, second = counted(found.parts[0], "convex part"), found.parts[1]
+    verb = "overlaps" if found.overlapping == 1 else "overlap"
+    said = f"{counted(found.overlapping, 'pair')} of parts {verb}"
+    if not found.overlapping:
+        is_open = found.undecided or found.untested
+        said = "no overlap of parts was found" if is_open else "no parts overlap"
+    lines = fitted(f"{finding.a} ({first}) and {finding.b} ({second:,}): {said}", page, BOLD)
+    rows = [_part_row(pair, finding) for pair in found.pairs[:MOST_PART_PAIRS]]
+    lines += aligned(rows, page) if rows else []
+    rest = found.overlapping + found.touching + found.undecided
+    lines += _more(rest - min(len(found.pairs), MOST_PART_PAIRS), "{}", "more pair")
+    lines += _more(found.untested, "{} of parts not tested", "pair")
+    if found.remark is not None:
+        lines += fitted(f"  {found.remark}", page, YELLOW)
     return lines
 
 

@@ -182,8 +182,12 @@ def test_parts_below_the_table() -> None:
     untested = replace(finding, part_pairs=PartPairs((2, 1), untested=2))
     assert "peg (1): no overlap of parts was found\n" in shown(untested, page=WIDE)
     none = PartPairs(remark="no convex parts: a half space has no end: peg")
-    text = shown(replace(finding, part_pairs=none), page=WIDE)
-    assert "\nblock and peg\n  no convex parts: a half space has no end: peg\n" in text
+    without = replace(finding, part_pairs=none)
+    assert "\nno convex parts: a half space has no end: peg\n" in shown(without, page=WIDE)
+    clear = replace(PENETRATING, part_pairs=PartPairs((2, 1)))
+    text = shown(without, replace(without, a="ball"), finding, clear, page=WIDE)
+    assert "\n1 pair with no parts that overlap\n" in text
+    assert text.count("a half space has no end: peg (2 pairs)\n") == 1
     assert "peg" in shown(TOUCHING, finding)
     assert "peg" not in shown(TOUCHING, replace(finding, part_pairs=PartPairs((2, 1))))
 
