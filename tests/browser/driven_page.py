@@ -203,10 +203,12 @@ def test_each_rung_sees_something_else(opened: Opened) -> None:
 
 
 def test_parts_that_overlap_stand_out(opened: Opened) -> None:
-    """The opacity of each part. Of a report that lists no pairs of parts all are alike."""
+    """The opacity of each part. Of a report that lists no pairs of parts all are alike, and the
+    page shows triangles first."""
     seen = []
-    for asked in ("--accuracy", "parts"), ("--parts",):
+    for asked, first in (("--accuracy", "parts"), "triangles"), (("--parts",), "parts"):
         page = opened(*asked, "--no-depth", *CONCAVE)
+        assert page.locator("#rung").input_value() == first
         page.locator("#rung").select_option("parts")
         seen.append(page.evaluate(OPACITIES))
     alike, told = seen

@@ -259,6 +259,7 @@ async function start() {
     await loading.load();
     picture = loading;
     listen();
+    if (report.findings.some((each) => each.parts.flat().length)) element("rung").value = "parts";  // they were asked for
     select(state.selected);
   } catch (error) {
     say(`${error.message} The list of findings is complete without the picture.`);
