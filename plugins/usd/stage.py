@@ -78,7 +78,7 @@ def open_stage(file: File) -> Stage:
     if root is not None:
         closed.close(root)
     stage = Usd.Stage.Open(root or location)
-    for layer in stage.GetUsedLayers(True):
+    for layer in sorted(stage.GetUsedLayers(True), key=lambda each: each.identifier):
         if layer.anonymous:
             continue
         note(file_of(layer.realPath))
