@@ -113,6 +113,9 @@ def _integers(values: ArrayLike, name: str) -> Array:
 def _array(values: ArrayLike, name: str) -> Array:
     import numpy as np
 
+    rows = values if isinstance(values, list | tuple) else ()
+    if np.ma.is_masked(values) or any(map(np.ma.is_masked, rows)):
+        raise refused(f"{name}: masked values are no numbers: fill them, or leave their rows out")
     try:
         return np.asarray(values)
     except (TypeError, ValueError) as error:  # rows of several lengths

@@ -263,7 +263,9 @@ class Finding(Value, frozen=True, kw_only=True):
         return self.placed_relation or self.relation
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
-        """JSON values, as a report has them; no `microseconds` without timings."""
+        """JSON values, as a report has them; no `microseconds` without timings. In a table of
+        these, as `pandas.json_normalize` makes it, a vector is a list in one cell: the columns of
+        `Report.to_dataframe` are the right ones for tables."""
         values: dict[str, Any] = plain(self)
         return values if timings else without_timings(values)
 

@@ -43,8 +43,8 @@ from satcheck.scene.files.readers import (
     reader_of_robot,
 )
 from satcheck.scene.issue import UNUSED_OPTION, issue
-from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.opening import DEFAULT_SECONDS_PER_FILE, name_of, read_whole
+from satcheck.scene.mesh_files import MeshFiles, bodies_of
+from satcheck.scene.opening import DEFAULT_SECONDS_PER_FILE, File, name_of, read_whole
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import MICROMETRES, unit_of
 
@@ -201,6 +201,14 @@ def load_scene(paths: Sequence[str | Path], *, hashed: bool = True, **options: A
     `units="mm"` or `split="nodes"`; its `load` says what is raised. hashed: as there.
     """
     return LoadOptions(**options).load(paths, hashed=hashed)
+
+
+def scene_of_document(document: Document, file: File) -> Scene:
+    """Return the scene of what a reader has made of a file that places bodies. Raises Refused if no
+    body can be used."""
+    builder = SceneBuilder(MeshFiles(), None)
+    builder.add(bodies_of(file, document, "nodes", "document"), alone=True)
+    return builder.scene()
 
 
 def _only(between: Sequence[tuple[str, str]]) -> Iterator[Rule]:

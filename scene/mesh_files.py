@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 _MOST_SEEN = 100_000
 
 
-def _bodies_of(file: File, read: Document, split: Split, kind: str) -> Document:
+def bodies_of(file: File, read: Document, split: Split, kind: str) -> Document:
     """Return the bodies of a file, with each distinct mesh inspected once. read: by its reader,
     which is of this kind. Raises Refused if nothing can be used."""
     if split == "none":
@@ -112,7 +112,7 @@ class MeshFiles:
         with _reading(path, location), ErrorsOf(path):
             whole = split == "none"
             reader, file = open_file(path, location, required_reader, self.allowed, whole=whole)
-            return _bodies_of(file, self._read(reader, file, Document), split, reader.kind)
+            return bodies_of(file, self._read(reader, file, Document), split, reader.kind)
 
     def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
         """In this process, or in the child process, as its reader says. kind: of its documents."""

@@ -181,12 +181,13 @@ def size_of(location: StrPath) -> int:
 
 
 def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
-    """The bytes of a text file, without padding. Raises Refused, with the path, if it is not a
-    regular file, is too large, or cannot be read."""
+    """The bytes of a text file, without padding; but of TOML as they are, because no mark ends its
+    last table, and NUL bytes may stand where more tables were lost. Raises Refused, with the path,
+    if it is not a regular file, is too large, or cannot be read."""
     try:
         data = _read(location, size_of(location), most)
         note_bytes(location, data)
-        return without_padding(data)
+        return data if suffix_of(location).lower() == ".toml" else without_padding(data)
     except Refused as error:
         raise Refused(error.code, error.message, file=path) from None
 

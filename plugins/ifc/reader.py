@@ -15,9 +15,9 @@ from satcheck.plugins.ifc.elements import Elements, elements_of, groups_of, inst
 from satcheck.plugins.ifc.kernel import UNITS, Shape, shapes_of
 from satcheck.plugins.ifc.model import open_model
 from satcheck.plugins.ifc.relations import relations_of
-from satcheck.scene.document import Document, Item, RawMesh, RawPart, Refusal
+from satcheck.scene.document import Document, Item, Refusal
 from satcheck.scene.errors import Refused
-from satcheck.scene.files.placing import tidy_name
+from satcheck.scene.files.placing import Parts, tidy_name
 from satcheck.scene.files.readers import File
 from satcheck.scene.words import listed
 
@@ -35,23 +35,16 @@ def read_ifc(file: File) -> Document:
     paths = path_names(bodies)
     rules, named = relations_of(model, bodies, paths, shapes)
     groups = groups_of(model, bodies)
-    parts: list[RawPart] = []
-    nodes: list[Item] = []
-    places: dict[RawMesh, int] = {}  # bodies with the same mesh share a part
+    parts, nodes = Parts(), []
     for body in bodies:
-        number, shape, matrix = body.id(), shapes[body.id()], None
-        if isinstance(shape, Refusal):
-            part = len(parts)
-            parts.append(RawPart(paths[number], shape))
-        else:
-            part, matrix = places.setdefault(shape.mesh, len(parts)), shape.matrix
-            if part == len(parts):
-                parts.append(RawPart(paths[number], shape.mesh))
+        number, shape = body.id(), shapes[body.id()]
+        mesh, matrix = (shape.mesh, shape.matrix) if isinstance(shape, Shape) else (shape, None)
+        part = parts.number(paths[number], mesh)
         of_body = (*groups[number], *named.get(number, ()))
         title = f"{body.is_a()} {tidy_name(body.Name, '')}".strip()
         nodes.append(Item(part, paths[number], matrix, title, of_body))
     said = remarks_on(model, elements, shapes, file.options)
-    return Document(tuple(parts), tuple(nodes), tuple(said), UNITS, rules)
+    return Document(parts.all(), tuple(nodes), tuple(said), UNITS, rules)
 
 
 def remarks_on(

@@ -10,10 +10,9 @@ from pxr import Usd, UsdGeom, UsdLux, UsdPhysics, UsdSkel
 
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.walk import PlacedPrim, type_of
-from satcheck.scene.document import NO_SURFACE, Refusal
+from satcheck.scene.document import Refusal
 
 _WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points"))
-_WITHOUT_TRIANGLES = _WITH_WIDTHS | {"Volume"}
 _OF_GEOMETRY = ("extent", "points")
 _OF_MESHES = ("points", "faceVertexCounts", "faceVertexIndices")
 _OF_SHAPES = (*_OF_MESHES, "size", "radius", "height")
@@ -90,17 +89,6 @@ def without_extent(prim: Any, choice: Choice) -> str | None:
         return f"of type {kind} and without widths, it has no surface"
     if kind == "Mesh" and not any(prim.GetAttribute(name).Get(choice.time) for name in _OF_MESHES):
         return "a mesh without points and faces"
-    return None
-
-
-def not_read(prim: Any, choice: Choice) -> Refusal | None:
-    """Why geometry that takes up space is not read; None: it is."""
-    kind = type_of(prim)
-    if kind in _WITHOUT_TRIANGLES:
-        message = f"geometry of the type {kind} is not read: convert it to a Mesh"
-        return Refusal("unsupported-feature", message)
-    if kind == "Mesh" and not prim.GetAttribute("faceVertexCounts").Get(choice.time):
-        return Refusal(NO_SURFACE, "the mesh has no faces")
     return None
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from pxr import Ar, Sdf, Tf
 
-from satcheck.scene.access import Context
+from satcheck.scene.access import Context, note
 from satcheck.scene.errors import Refused
 from satcheck.scene.opening import exists, is_folder, size_of
 
@@ -28,7 +28,8 @@ class Closed:
 
     def close(self, root: Any) -> None:
         """Puts empty layers for what the root layer, and the layers that it names, name outside.
-        Raises Refused for value clips outside, which USD opens late, and for what is too large."""
+        Notes these files, even if they are not there. Raises Refused for value clips outside, which
+        USD opens late, and for what is too large."""
         variables = root.pseudoRoot.GetInfo("expressionVariables") or {}
         seen, waiting = {root.identifier}, [root]
         while waiting:
@@ -37,6 +38,7 @@ class Closed:
                 if place in seen:
                     continue
                 seen.add(place)
+                note(file_of(place))
                 if not self.permits(place):
                     if Path(file_of(place)).exists():
                         text = Sdf.FileFormat.FindById("usda")
@@ -46,6 +48,7 @@ class Closed:
                 if (inner := opened(place)) is not None:
                     waiting.append(inner)
             for place in clips_of(layer):
+                note(file_of(place))
                 if not self.permits(place):
                     raise self.refusal(place)
                 self._refuse_large(place)

@@ -9,19 +9,20 @@ from pxr import Gf, Tf, UsdGeom, UsdPhysics
 
 from satcheck.core.shapes import HalfSpace, Primitive
 from satcheck.core.transform import Transform
-from satcheck.plugins.usd.choice import Choice, hidden_geometry, not_read, without_extent
+from satcheck.plugins.usd.choice import Choice, hidden_geometry, without_extent
 from satcheck.plugins.usd.layers import look_at_layers
 from satcheck.plugins.usd.mesh import Skinning, read_mesh, read_tetrahedra
 from satcheck.plugins.usd.names import TYPES
 from satcheck.plugins.usd.physics import with_physics
-from satcheck.plugins.usd.shapes import NoSuchShape, facets_around, placed_shape, shape_of
+from satcheck.plugins.usd.shapes import facets_around, placed_shape, shape_of
 from satcheck.plugins.usd.stage import Remarks, Stage, lost_by, missing_variants, said
 from satcheck.plugins.usd.unknown import look_at_stage
 from satcheck.plugins.usd.walk import WORLD, PlacedPrim, Walk, type_of
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.document import Document, Item, RawMesh, RawPart, Refusal
+from satcheck.scene.document import Document, Item, RawMesh, Refusal
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.nodes import hull_of
+from satcheck.scene.files.placing import Parts
 from satcheck.scene.issue import CODES
 
 # Approximations that reach out of the mesh.
@@ -37,11 +38,10 @@ class Reading:
         self._said = Remarks()
         self._skinning = Skinning(self._choice.time)
         self._lost = dict(stage.lost)
-        self._parts: list[RawPart] = []
+        self._parts = Parts()
         self._nodes: list[Item] = []
         self._placed: list[PlacedPrim] = []
-        self._read: dict[Any, tuple[int, Any]] = {}
-        self._places: dict[Content, int] = {}
+        self._read: dict[Any, tuple[Content, Any]] = {}
 
     def scene(self) -> Document:
         """Raises Refused if the stage has no body."""
@@ -63,7 +63,7 @@ class Reading:
         stage, time = self._stage, self._choice.time
         nodes, rules, joints = with_physics(stage, self._nodes, self._placed, time, said)
         said_of = (*warnings, *said.warnings())
-        return Document(tuple(self._parts), nodes, said_of, stage.unit, rules, joints)
+        return Document(self._parts.all(), nodes, said_of, stage.unit, rules, joints)
 
     def _refuse_lost_in_instances(self) -> None:
         """A reference is lost in every instance, and composition names one of them or none."""
@@ -89,8 +89,6 @@ class Reading:
             self._add(placed, refusal)
         elif (words := without_extent(prim, self._choice)) is not None:
             self._said.add("ignored-geometry", words, name)
-        elif (unread := not_read(prim, self._choice)) is not None:
-            self._add(placed, unread)
         else:
             self._place(placed)
 
@@ -110,22 +108,20 @@ class Reading:
         prim = placed.prim
         key = prim.GetPrimInPrototype().GetPath() if prim.IsInstanceProxy() else prim.GetPath()
         if key not in self._read:
-            content, turn = self._content(prim)
-            self._read[key] = self._part(placed.name, content), turn
-        number, turn = self._read[key]
-        content = self._parts[number].mesh
+            self._read[key] = self._content(prim)
+        content, turn = self._read[key]
         if isinstance(content, Refusal):
-            self._node(placed, number)
+            self._add(placed, content)
             return
         matrix = self._stage.matrix(turn * placed.matrix)
         if not isinstance(content, RawMesh | HalfSpace):
             try:
                 matrix = placed_shape(content, matrix)
-            except NoSuchShape as error:
+            except ValueError as error:
                 words = f"{error}, so it is checked as facets around it"
                 self._said.add("faceted", words, placed.name)
-                number = self._part(placed.name, facets_around(content, self._stage.unit))
-        self._node(placed, number, None if matrix == IDENTITY else matrix)
+                content = facets_around(content, self._stage.unit)
+        self._add(placed, content, None if matrix == IDENTITY else matrix)
 
     def _content(self, prim: Any) -> tuple[Content, Any]:
         """(mesh or shape of a prim in its own coordinates, a turn before its placement)."""
@@ -142,7 +138,7 @@ class Reading:
             return Refusal(error.code, error.message), _NOT_TURNED
         except Tf.ErrorException as error:
             return Refusal("bad-record", said(error)), _NOT_TURNED
-        message = f"geometry of the type {prim.GetTypeName()} is not read: convert it to a Mesh"
+        message = f"geometry of the type {type_of(prim)} is not read: convert it to a Mesh"
         return Refusal("unsupported-feature", message), _NOT_TURNED
 
     def _mesh(self, prim: Any) -> RawMesh:
@@ -171,17 +167,7 @@ class Reading:
         self._said.add(code, words, str(prim.GetPath()))
         return mesh
 
-    def _part(self, name: str, content: Content) -> int:
-        """Its number. Equal meshes and shapes are one part."""
-        number = self._places.setdefault(content, len(self._parts))
-        if number == len(self._parts):
-            self._parts.append(RawPart(name, content))
-        return number
-
-    def _add(self, placed: PlacedPrim, reason: Refusal) -> None:
-        self._parts.append(RawPart(placed.name, reason))
-        self._node(placed, len(self._parts) - 1)
-
-    def _node(self, placed: PlacedPrim, part: int, matrix: Transform | None = None) -> None:
+    def _add(self, placed: PlacedPrim, content: Content, matrix: Transform | None = None) -> None:
+        part = self._parts.number(placed.name, content)
         self._nodes.append(Item(part, placed.name, matrix))
         self._placed.append(placed)

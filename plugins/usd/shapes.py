@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf
 
+from satcheck.core.curved.placed import curved_shape
 from satcheck.core.rounding import ORTHOGONALITY
 from satcheck.core.shape_mesh import mesh_around, mesh_of, sag_of
 from satcheck.core.shapes import Box, Capsule, Cone, Cylinder, HalfSpace, Primitive, Sphere
@@ -22,14 +23,6 @@ from satcheck.scene.errors import Refused
 FLOAT32_NOISE = 1e-6
 
 _SEGMENTS = 128  # of a circle, where facets stand for a shape: 0.1 % of its radius off
-
-
-class NoSuchShape(Exception):
-    """A scaled or sheared shape is not of its kind any more."""
-
-    def __init__(self, shape: Primitive, how: str) -> None:
-        kind = type(shape).__name__.lower()
-        super().__init__(f"a {kind} {how} is no {kind}")
 
 
 # Rows for row vectors: exact quarter turns that take z to the axis.
@@ -121,8 +114,8 @@ def placed_shape(shape: Primitive, matrix: Transform) -> Transform:
     """The placement without the rounding of float32, which would skew the shape.
 
     matrix: row-major 4x4 for column vectors. The nearest rotation replaces one that is off by
-    rounding, and scales that differ by rounding become equal. Raises NoSuchShape if the image is no
-    shape that is checked exactly.
+    rounding, and scales that differ by rounding become equal. Raises ValueError if the image is no
+    shape of this kind.
     """
     columns = np.array(matrix).reshape(4, 4)[:3, :3]
     scales = np.linalg.norm(columns, axis=0)
@@ -131,31 +124,22 @@ def placed_shape(shape: Primitive, matrix: Transform) -> Transform:
     axes = columns / scales
     skew = np.abs(axes.T @ axes - np.eye(3)).max()
     if skew > FLOAT32_NOISE:
-        raise NoSuchShape(shape, "sheared")
+        kind = type(shape).__name__.lower()
+        raise ValueError(f"a {kind} sheared is no {kind}")
     if skew > ORTHOGONALITY / 2:
         left, _, right = np.linalg.svd(axes)
         axes = left @ right
-    even = _evened(shape, scales)
-    if skew <= ORTHOGONALITY / 2 and (even == scales).all():
-        return matrix
-    placed = np.array(matrix).reshape(4, 4)
-    placed[:3, :3] = axes * even
-    return tuple(placed.ravel().tolist())
-
-
-def _evened(shape: Primitive, scales: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The scales with those equal that are equal up to rounding. Raises NoSuchShape if others
-    should be."""
     even = scales.copy()
     if _are_even(scales):
         even[:] = scales.mean()
-    elif isinstance(shape, Sphere):
-        return even  # an ellipsoid
-    elif isinstance(shape, Cylinder | Cone) and _are_even(scales[:2]):
+    elif not isinstance(shape, Sphere) and _are_even(scales[:2]):
         even[:2] = scales[:2].mean()
-    else:
-        raise NoSuchShape(shape, "scaled unevenly")
-    return even
+    if skew > ORTHOGONALITY / 2 or (even != scales).any():
+        placed = np.array(matrix).reshape(4, 4)
+        placed[:3, :3] = axes * even
+        matrix = tuple(placed.ravel().tolist())
+    curved_shape(shape, matrix)
+    return matrix
 
 
 def _are_even(scales: NDArray[np.float64]) -> bool:

@@ -12,7 +12,7 @@ from pxr import Sdf, Usd, UsdGeom
 
 from satcheck.core.transform import Transform
 from satcheck.plugins.usd.names import LOOKS
-from satcheck.plugins.usd.outside import Closed, clips_of, file_of
+from satcheck.plugins.usd.outside import Closed, file_of
 from satcheck.scene.access import note
 from satcheck.scene.document import Refusal
 from satcheck.scene.errors import Refused
@@ -78,19 +78,27 @@ def open_stage(file: File) -> Stage:
     if root is not None:
         closed.close(root)
     stage = Usd.Stage.Open(root or location)
-    layers = [layer for layer in stage.GetUsedLayers(True) if not layer.anonymous]
-    _note_files(layers)
-    for layer in layers:
+    for layer in sorted(stage.GetUsedLayers(True), key=lambda each: each.identifier):
+        if layer.anonymous:
+            continue
+        note(file_of(layer.realPath))
         if not closed.permits(layer.identifier):
             raise closed.refusal(layer.identifier)
+    return stage_of(stage, file.options["time"])
+
+
+def stage_of(stage: Any, time: float | None = None) -> Stage:
+    """Return an open stage as a reader takes it. time: a time code; None: the first. Raises
+    Refused."""
     lost, warnings = _composition_errors(stage)
     lost |= lost_by(stage, _missing_clips)
     unit, scale = _unit(stage, warnings)
     axis = UsdGeom.GetStageUpAxis(stage)
     if axis not in (UsdGeom.Tokens.y, UsdGeom.Tokens.z):
         raise Refused("bad-record", f"upAxis is {axis!r}, not Y or Z")
-    times = [time for layer in layers for time in layer.ListAllTimeSamples()]
-    if times and file.options["time"] is None:
+    layers = stage.GetUsedLayers(True)
+    times = [each for layer in layers for each in layer.ListAllTimeSamples()]
+    if times and time is None:
         between = f"the first of the time codes {min(times):g} to {max(times):g}"
         warnings.append(("time-sampled", f"bodies stand as at {between} (--read time=T)"))
     return Stage(stage, unit, scale, axis == UsdGeom.Tokens.y, lost, tuple(warnings))
@@ -106,16 +114,6 @@ def said(error: Exception) -> str:
     text = next(filter(None, quoted), message).strip().rstrip("'")
     text = _PARSER.sub("parse error at", text)
     return " ".join(text.split())
-
-
-def _note_files(layers: list[Any]) -> None:
-    """The layers, and those that they name, even if they are not there."""
-    for layer in layers:
-        note(file_of(layer.realPath))
-        for name in filter(None, layer.GetCompositionAssetDependencies()):
-            note(file_of(Sdf.ComputeAssetPathRelativeToLayer(layer, name)))
-        for place in clips_of(layer):
-            note(file_of(place))
 
 
 def _composition_errors(stage: Any) -> tuple[dict[str, Refusal], list[tuple[str, str]]]:

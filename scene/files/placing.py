@@ -7,6 +7,7 @@ from typing import Generic, TypeVar
 
 from msgspec import Struct
 
+from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform, compose
 from satcheck.scene.document import (
     COMPONENT_MARK,
@@ -139,6 +140,23 @@ def raw_scene(
     names = UniqueNames()
     parts = [RawPart(names.unique(name(key)), mesh(key)) for key in used]
     return Document(tuple(parts), tuple(items))
+
+
+class Parts:
+    """The parts of a document: equal meshes and shapes once, each refusal by itself."""
+
+    def __init__(self) -> None:
+        self._parts: dict[Hashable, RawPart] = {}
+        self._numbers: dict[Hashable, int] = {}
+
+    def number(self, name: str, shape: RawMesh | Primitive | Refusal) -> int:
+        """Return the number of the part. name: of the part if it is new, unique."""
+        key = (name, shape) if isinstance(shape, Refusal) else shape
+        self._parts.setdefault(key, RawPart(name, shape))
+        return self._numbers.setdefault(key, len(self._numbers))
+
+    def all(self) -> tuple[RawPart, ...]:
+        return tuple(self._parts.values())
 
 
 def multiply(outer: Transform | None, inner: Transform | None) -> Transform | None:

@@ -62,7 +62,7 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
         return _read(text, permitted, document.RulesFile)
     if schema != SCENE_1:
         keys = values.keys() - _OF_SCENE if schema is None and isinstance(values, dict) else ()
-        raise _not_a_scene(path, schema, sorted(keys))
+        raise _not_a_scene(text, schema, sorted(keys))
     return _read(text, permitted, document.Scene)
 
 
@@ -72,7 +72,7 @@ def read_rules_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
     text = SceneText(path, location, permitted.most)
     schema = _schema_of(text)
     if not isinstance(text.document, dict) or schema not in (None, SCENE_1):
-        raise _not_a_scene(path, schema)
+        raise _not_a_scene(text, schema)
     if text.document.pop("bodies", None):
         text.keep(Wrong("a file of rules has no bodies", "bodies"))
     return _read(text, NOTHING_ELSE, document.RulesFile)
@@ -82,15 +82,17 @@ def _schema_of(text: SceneText) -> object:
     return text.document.get("schema") if isinstance(text.document, dict) else None
 
 
-def _not_a_scene(path: str, schema: object, unknown: Sequence[str] = ()) -> Refused:
-    """unknown: keys that no scene has."""
+def _not_a_scene(text: SceneText, schema: object, unknown: Sequence[str] = ()) -> Refused:
+    """Return the error, at the line of the schema if it is stated. unknown: keys that no scene
+    has."""
     told = "" if schema is None else f", but {shown(schema)}"
     message = f'not a scene file: "schema" is not "{SCENE_1}"{told}'
     if isinstance(schema, str) and re.match(r"satcheck\.(?!scene)", schema):
         message += ": it is a result of satcheck, so give the files that it is about"
     hints = ((key, meant(key, _OF_SCENE)) for key in unknown)
     message += "".join(f"; {key} is unknown{hint}" for key, hint in hints if hint)
-    return Refused("bad-scene", message, file=path)
+    line = None if schema is None else text.lines([("schema",)])[0]
+    return Refused("bad-scene", message, file=text.path, line=line)
 
 
 def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile]) -> SceneFile:

@@ -184,6 +184,8 @@ def read_toml(path: str, text: str) -> dict[str, Any]:
     except tomli.TOMLDecodeError as error:
         line = min(error.lineno, len(text.splitlines()))
         message = f"not well-formed TOML: {error.msg}"
+        if "\0" in text:
+            message += ": it holds NUL bytes, where a part of it may be lost"
         if bare := re.search(_BARE_LENGTH, "".join(text.splitlines()[line - 1 : line])):
             message = f'a length with a unit stands in quotes: "{bare[1]}"'
         raise Refused("bad-scene", message, file=path, line=line) from None

@@ -119,6 +119,34 @@ def write_ply(path: Path, mesh: Any) -> None:
     path.write_bytes(header.encode() + vertices.tobytes() + rows.tobytes())
 
 
+def masked(values: Any) -> Any:
+    """An array of which the first value is masked."""
+    array = np.ma.masked_array(values)
+    array[0, 0] = np.ma.masked
+    return array
+
+
+@pytest.mark.parametrize(
+    ("name", "call"),
+    [
+        ("vertices", lambda: check_meshes((masked(CUBE.vertices), CUBE.faces), CUBE)),
+        ("vertices", lambda: Mesh([*masked(CUBE.vertices)], CUBE.faces)),
+        ("faces", lambda: Mesh(CUBE.vertices, masked(CUBE.faces))),
+        ("pose", lambda: check_meshes(CUBE, CUBE, pose_b=masked(moved(9.0)))),
+        ("pose", lambda: scene_of_meshes({"a": CUBE}, {"a": masked(moved(9.0))})),
+    ],
+)
+def test_masked_values_are_refused(name: str, call: Any) -> None:
+    with pytest.raises(SatcheckError, match=f"{name}: masked values are no numbers") as raised:
+        call()
+    assert raised.value.code == "bad-argument"
+
+
+def test_an_array_that_masks_nothing_is_an_array() -> None:
+    unmasked = np.ma.masked_array(CUBE.vertices)
+    assert check_meshes((unmasked, CUBE.faces), CUBE, pose_b=moved(1.5)).depth == 0.5
+
+
 def test_certificates_need_files() -> None:
     with pytest.raises(SatcheckError, match="certificates name files") as refused:
         check_meshes(CUBE, CUBE, settings=Settings(certificate=True))

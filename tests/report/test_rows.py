@@ -34,6 +34,15 @@ def test_a_data_frame_has_numbers_and_no_none():
     assert frame["mtv_verified"].sum() == 1
 
 
+def test_a_table_of_dictionaries_says_the_same_in_other_columns():
+    pandas = pytest.importorskip("pandas")
+    frame = MIXED.to_dataframe()
+    table = pandas.json_normalize([finding.to_dict() for finding in MIXED.findings])
+    for name in ("a", "b", "relation", "depth", "id"):
+        pandas.testing.assert_series_equal(frame[name], table[name], check_dtype=False)
+    assert table["mtv"][1] == frame.loc[1, ["mtv_x", "mtv_y", "mtv_z"]].tolist()
+
+
 def test_a_column_without_a_value_is_numeric_too():
     pytest.importorskip("pandas")
     for findings in ((), (SEPARATED,)):

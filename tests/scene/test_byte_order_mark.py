@@ -142,11 +142,6 @@ def test_the_last_byte_of_binary_data_may_be_the_only_nul(tmp_path):
     ("name", "text"),
     [
         (
-            "a.toml",
-            'schema = "satcheck.scene/1"\n[[bodies]]\nid = "a"\n'
-            'shape = {type = "box", size = [1, 1, 1]}\n',
-        ),
-        (
             "a.json",
             '{"schema": "satcheck.scene/1", "bodies": '
             '[{"id": "a", "shape": {"type": "box", "size": [1, 1, 1]}}]}',
@@ -161,3 +156,18 @@ def test_the_last_byte_of_binary_data_may_be_the_only_nul(tmp_path):
 def test_nul_bytes_after_a_scene_or_a_robot_are_no_text(tmp_path, name, text):
     (tmp_path / name).write_bytes(text.encode() + b"\0")
     assert [body.id for body in load_scene([tmp_path / name]).bodies] == ["a"]
+
+
+def test_a_toml_scene_with_nul_bytes_may_have_lost_bodies(tmp_path):
+    body = '[[bodies]]\nid = "a"\nshape = {type = "box", size = [1, 1, 1]}\n'
+    (tmp_path / "a.toml").write_bytes(f'schema = "satcheck.scene/1"\n{body}'.encode() + b"\0" * 90)
+    with pytest.raises(Refused, match="NUL bytes") as error:
+        load_scene([tmp_path / "a.toml"])
+    assert error.value.line == 5
+
+
+def test_a_json_scene_that_lost_its_end_is_never_whole(tmp_path):
+    text = b'{"schema": "satcheck.scene/1", "bodies": [\n{"id": "a"}\n' + b"\0" * 90
+    (tmp_path / "a.json").write_bytes(text)
+    with pytest.raises(Refused, match="not well-formed JSON"):
+        load_scene([tmp_path / "a.json"])

@@ -436,6 +436,8 @@ def test_lengths_with_a_unit_need_declared_ones(tmp_path):
         ("[]", "json", ': not a scene file: "schema" is not "satcheck.scene/1"'),
         ('schema = "satcheck-scene-1"', "toml", "but 'satcheck-scene-1'"),
         ('schema = "satcheck.scene/2"', "toml", "but 'satcheck.scene/2'"),
+        ('units = "m"\nschema = "satcheck.scene/2"', "toml", "cell.toml:2: not a scene file"),
+        ('{"units": "m",\n\n"schema": 1}', "json", "cell.json:3: not a scene file"),
         ("[[rule]]\nallowed = true\n", "toml", "; rule is unknown (did you mean 'rules'?)"),
         ("[[rules]]\nmax_depth = 2 mm\n", "toml", ":2: a length with a unit stands in quotes: "),
     ],
