@@ -1,17 +1,21 @@
 """Splits concave meshes into convex parts with a measured error, and caches them on disk."""
 
 from satcheck.decompose.cache import Cache, user_cache
-from satcheck.decompose.decomposition import decompose
+from satcheck.decompose.decomposition import decompose, placed
+from satcheck.decompose.engines import ENGINES, Limits
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.result import Decomposition, Note
 from satcheck.decompose.settings import DecompositionSettings
 
 __all__ = [
+    "ENGINES",
     "Cache",
     "Decomposition",
     "DecompositionError",
     "DecompositionSettings",
+    "Limits",
     "Note",
     "decompose",
+    "placed",
     "user_cache",
 ]

@@ -1,10 +1,14 @@
-"""Computes parts, inner parts and errors, and holds stored ones against their mesh."""
+"""Computes parts, inner parts and errors, holds stored ones against their mesh, and fits them to
+limits."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final
+
+import numpy as np
+from msgspec.structs import replace
 
 from satcheck.core import Mesh, Polytope, Surface
 from satcheck.core.worker import (
@@ -17,8 +21,11 @@ from satcheck.core.worker import (
 from satcheck.decompose import errors
 from satcheck.decompose.coacd_server import decode_reply, encode_request
 from satcheck.decompose.components import diagonal, independent_pieces
+from satcheck.decompose.enclosing import enclosing_parts
+from satcheck.decompose.engines import Limits
 from satcheck.decompose.error_bounds import missing_error, outside_error
 from satcheck.decompose.errors import Deadline, DecompositionError
+from satcheck.decompose.fitting import merged_parts, simplified
 from satcheck.decompose.inner_parts import inner_parts, is_inside
 from satcheck.decompose.result import (
     FLAT_PARTS_DROPPED,
@@ -80,6 +87,29 @@ def held_against(
         return None  # CoACD leaves about a third of this
     return Decomposition(
         stored.parts, stored.inner, outside, missing, stored.seconds, True, settings, stored.notes
+    )
+
+
+def fitted(mesh: Mesh, result: Decomposition, limits: Limits, seconds: float) -> Decomposition:
+    """Return the parts of a welded mesh fitted to limits, with errors that are measured again.
+
+    Raises DecompositionError.
+    """
+    deadline, threshold = Deadline(seconds), result.settings.threshold
+    parts: Sequence[Polytope] = result.parts
+    if limits.parts is not None:
+        parts = merged_parts(parts, limits.parts, deadline)
+    if limits.enclose:
+        parts = enclosing_parts(mesh, parts, limits.vertices, deadline)
+    elif limits.vertices is not None:
+        parts = [simplified(np.asarray(part.vertices), limits.vertices) for part in parts]
+    surface = Surface(mesh, mesh.topology().solid)
+    return replace(
+        result,
+        parts=tuple(parts),
+        inner=(None,) * len(parts),
+        outside=outside_error(parts, surface, threshold),
+        missing=0.0 if limits.enclose else missing_error(mesh, parts, deadline),
     )
 
 

@@ -16,9 +16,20 @@ OUT_OF_MEMORY: Final = "decomposition-out-of-memory"
 CRASHED: Final = "decomposition-crashed"
 FAILED: Final = "decomposition-failed"
 BAD_OUTPUT: Final = "decomposition-bad-output"
+NOT_ENCLOSED: Final = "decomposition-not-enclosed"
 
 CODES: Final = frozenset(
-    {BAD_SETTING, EMPTY, FLAT, TIMEOUT, OUT_OF_MEMORY, CRASHED, FAILED, BAD_OUTPUT}
+    {
+        BAD_SETTING,
+        EMPTY,
+        FLAT,
+        TIMEOUT,
+        OUT_OF_MEMORY,
+        CRASHED,
+        FAILED,
+        BAD_OUTPUT,
+        NOT_ENCLOSED,
+    }
 )
 
 

@@ -110,20 +110,30 @@ def _with_declaration_first(data: bytes) -> bytes:
     return _DECLARATION.sub(rb"\2\1", data)
 
 
+def well_formed(data: bytes) -> bytes:
+    """Return the document of a robot with its slips mended, for a parser of XML."""
+    document = _with_declaration_first(data)
+    try:
+        parse_xml(guarded_parser(namespaces=False), document)
+    except Refused:
+        return _with_declaration_first(_mended(data))
+    return document
+
+
 def _parse(path: str, data: bytes) -> Element:
     try:
         with suppress(Refused):
             return read_elements(_with_declaration_first(data), file=path)
-        plain = _AMPERSAND.sub(b"&amp;", _without_comments(data))
-        return read_elements(_with_declaration_first(plain), file=path)
+        return read_elements(_with_declaration_first(_mended(data)), file=path)
     except Refused as error:
         if _ERB in data:
             raise Refused("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
         raise Refused(error.code, error.message, file=path) from None
 
 
-def _without_comments(data: bytes) -> bytes:
-    """The document with blanks for comments. Programs for robots accept comments that XML does not
-    allow: with -- in them, or before <?xml ...?>; and an & that is no &amp;. All lines keep their
-    numbers."""
-    return _COMMENT.sub(lambda comment: _NO_LINE_END.sub(b" ", comment[0]), data)
+def _mended(data: bytes) -> bytes:
+    """The document with blanks for comments, and &amp; for an & that begins no reference. Programs
+    for robots accept comments that XML does not allow: with -- in them, or before <?xml ...?>. All
+    lines keep their numbers."""
+    plain = _COMMENT.sub(lambda comment: _NO_LINE_END.sub(b" ", comment[0]), data)
+    return _AMPERSAND.sub(b"&amp;", plain)

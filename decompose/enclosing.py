@@ -1,0 +1,144 @@
+"""Grows convex parts until they contain the surface of their mesh, and proves that they do.
+
+The surface is cut into pieces, and each is assigned to a part (`error_bounds.assigned_pieces`). A
+part is the hull of few of the points that it has to contain. Faces that lack some of these are
+moved outward, by moving their corners: the number of vertices does not grow. All coordinates are
+32-bit numbers, as in the files and in physics engines, so that no later rounding moves a vertex.
+
+The proof: each corner of each piece lies in the hull of the rounded vertices, so the piece does, as
+the hull is convex. A corner is below a face if its determinant in float64 exceeds the bound of
+Jonathan Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+Predicates" (1997). Corners of pieces that were cut must lie deeper than the roundings of the cuts.
+Corners of whole triangles may lie on the hull; exact signs decide those.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from satcheck.core import Mesh, Polytope, Surface
+from satcheck.decompose import errors
+from satcheck.decompose.components import diagonal
+from satcheck.decompose.error_bounds import assigned_pieces, planes_of
+from satcheck.decompose.errors import Deadline, DecompositionError
+from satcheck.decompose.fitting import hull_of, simplified
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+# What a part may lack before it is grown, relative to the diagonal of the mesh.
+_ENOUGH: Final = 2.0**-11
+# How far faces are first moved beyond what they lack, relative to the largest coordinate: rounding
+# to 32 bits moves a vertex by at most sqrt(3) * 2^-24 of it.
+_MARGIN: Final = 2.0**-22
+_ROUNDS: Final = 16
+_STEPS: Final = 64  # for the move of one vertex
+# Twice the roundings of the determinant, relative to the sum of the absolute values of its terms.
+_FILTER: Final = 16.0 * 2.0**-53
+_ENTRIES_AT_ONCE: Final = 1 << 20
+
+
+def enclosing_parts(
+    mesh: Mesh, parts: Sequence[Polytope], vertices: int | None, deadline: Deadline
+) -> list[Polytope]:
+    """Return the parts, grown, which are proven to contain the surface of the mesh.
+
+    vertices: the most of a part; None: any number. Their coordinates are 32-bit numbers. Raises
+    DecompositionError if nothing is proven.
+    """
+    pieces, uncut, off = assigned_pieces(mesh, parts, deadline)
+    enough = _ENOUGH * diagonal(mesh)
+    grown = []
+    for part, own, whole in zip(parts, pieces, uncut, strict=True):
+        deadline.check()
+        corners = np.unique(np.array([point for piece in own for point in piece]), axis=0)
+        corners = corners.reshape(-1, 3)
+        grown.append(_grown(part, corners, vertices, enough, 0.0 if whole else off))
+    return grown
+
+
+def _grown(
+    part: Polytope, corners: Floats, vertices: int | None, enough: float, off: float
+) -> Polytope:
+    """The part, grown until it contains points (n, 3). off: how deep they have to lie in it."""
+    within = np.asarray(part.vertices)
+    hull = _rounded(within if vertices is None else simplified(within, vertices).vertices)
+    if _contains(hull, corners, off):
+        return hull
+    target = np.concatenate([within, corners])
+    hull = _rounded(simplified(target, vertices, enough).vertices)
+    margin = _MARGIN * float(np.abs(target).max()) + off
+    for _ in range(_ROUNDS):
+        if hull.dimension < 3:
+            break
+        hull = _rounded(_pushed(hull, target, margin))
+        if _contains(hull, corners, off):
+            return hull
+        margin *= 2.0
+    raise DecompositionError(
+        errors.NOT_ENCLOSED, "no part in 32-bit numbers is proven to contain its piece of the mesh"
+    )
+
+
+def _rounded(points: Floats) -> Polytope:
+    """Return the hull of the points in 32-bit numbers."""
+    with np.errstate(over="ignore"):
+        single = np.asarray(points).astype(np.float32).astype(np.float64)
+    if not np.isfinite(single).all():
+        raise DecompositionError(errors.NOT_ENCLOSED, "32-bit numbers do not hold the mesh")
+    return hull_of(np.unique(single, axis=0))
+
+
+def _pushed(hull: Polytope, target: Floats, margin: float) -> Floats:
+    """Return the vertices (n, 3), moved so that their faces lie beyond the target by the margin."""
+    points, triangles = np.asarray(hull.vertices), np.asarray(hull.triangles)
+    normals, offsets = planes_of(hull)
+    lacking = (target @ normals.T).max(axis=0) - offsets + margin
+    faces: list[list[int]] = [[] for _ in points]
+    for number, triangle in enumerate(triangles.tolist()):
+        for vertex in triangle:
+            faces[vertex].append(number)
+    moves = np.zeros_like(points)
+    for vertex, around in enumerate(faces):
+        own, wanted, move = normals[around], lacking[around], moves[vertex]
+        for _ in range(_STEPS):
+            left = wanted - own @ move
+            worst = int(left.argmax())
+            if left[worst] <= 0.0:
+                break
+            move += left[worst] * own[worst]
+    return points + moves
+
+
+def _contains(hull: Polytope, points: Floats, off: float) -> bool:
+    """Return whether it is proven that the points lie in the hull: deeper than `off`, if that is
+    not 0."""
+    if hull.dimension < 3:
+        return False
+    rest = points[~_is_inside(hull, points, off)]
+    if not len(rest) or off > 0.0:
+        return not len(rest)
+    solid = Surface(hull.to_mesh(), True)
+    return all(solid.winding_number((x, y, z)) != 0 for x, y, z in rest.tolist())
+
+
+def _is_inside(hull: Polytope, points: Floats, off: float) -> NDArray[np.bool_]:
+    """(n,): whether float64 proves that each point lies deeper than `off` below each face."""
+    a, b, c = np.moveaxis(np.asarray(hull.vertices)[np.asarray(hull.triangles)], 1, 0)
+    u, v = b - a, c - a
+    normals = np.cross(u, v)
+    terms = np.abs(u[:, [1, 2, 0]] * v[:, [2, 0, 1]]) + np.abs(u[:, [2, 0, 1]] * v[:, [1, 2, 0]])
+    deep = off * np.linalg.norm(normals, axis=1) * (1.0 + 2.0**-40)
+    inside = np.ones(len(points), bool)
+    at_once = max(1, _ENTRIES_AT_ONCE // len(a))
+    for first in range(0, len(points), at_once):
+        apart = points[first : first + at_once, None] - a
+        heights = np.einsum("pfk,fk->pf", apart, normals)
+        bounds = _FILTER * np.einsum("pfk,fk->pf", np.abs(apart), terms)
+        inside[first : first + at_once] = (heights + bounds + deep < 0.0).all(axis=1)
+    return inside
