@@ -1,9 +1,9 @@
 """Grows convex parts until they contain the surface of their mesh, and proves that they do.
 
 The surface is cut into pieces, and each is assigned to a part (`error_bounds.assigned_pieces`). A
-part is the hull of few of the points that it has to contain. Faces that lack some of these are
-moved outward, by moving their corners: the number of vertices does not grow. All coordinates are
-32-bit numbers, as in the files and in physics engines, so that no later rounding moves a vertex.
+part begins as it is, or as the hull of few of its points, or as a box. Faces above which points lie
+are moved outward, by moving their corners: the number of vertices does not grow. The smallest
+result counts. All coordinates are 32-bit numbers, as in the files and in physics engines, so that no later rounding moves a vertex.
 
 The proof: each corner of each piece lies in the hull of the rounded vertices, so the piece does, as
 the hull is convex. A corner is below a face if its determinant in float64 exceeds the bound of
@@ -14,29 +14,28 @@ Corners of whole triangles may lie on the hull; exact signs decide those.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import product
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from satcheck.core import Mesh, Polytope, Surface
 from satcheck.decompose import errors
-from satcheck.decompose.components import diagonal
 from satcheck.decompose.error_bounds import assigned_pieces, planes_of
 from satcheck.decompose.errors import Deadline, DecompositionError
-from satcheck.decompose.fitting import hull_of, simplified
+from satcheck.decompose.fitting import hull_of, simplified, volume
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
 
-# What a part may lack before it is grown, relative to the diagonal of the mesh.
-_ENOUGH: Final = 2.0**-11
 # How far faces are first moved beyond what they lack, relative to the largest coordinate: rounding
 # to 32 bits moves a vertex by at most sqrt(3) * 2^-24 of it.
 _MARGIN: Final = 2.0**-22
 _ROUNDS: Final = 16
+_BOX: Final = 8  # corners
 _STEPS: Final = 64  # for the move of one vertex
 # Twice the roundings of the determinant, relative to the sum of the absolute values of its terms.
 _FILTER: Final = 16.0 * 2.0**-53
@@ -52,37 +51,55 @@ def enclosing_parts(
     DecompositionError if nothing is proven.
     """
     pieces, uncut, off = assigned_pieces(mesh, parts, deadline)
-    enough = _ENOUGH * diagonal(mesh)
     grown = []
     for part, own, whole in zip(parts, pieces, uncut, strict=True):
         deadline.check()
-        corners = np.unique(np.array([point for piece in own for point in piece]), axis=0)
-        corners = corners.reshape(-1, 3)
-        grown.append(_grown(part, corners, vertices, enough, 0.0 if whole else off))
+        corners = np.array([point for piece in own for point in piece]).reshape(-1, 3)
+        grown.append(_grown(part, np.unique(corners, axis=0), vertices, 0.0 if whole else off))
     return grown
 
 
-def _grown(
-    part: Polytope, corners: Floats, vertices: int | None, enough: float, off: float
-) -> Polytope:
-    """The part, grown until it contains points (n, 3). off: how deep they have to lie in it."""
+def _grown(part: Polytope, corners: Floats, vertices: int | None, off: float) -> Polytope:
+    """The part, grown until it contains points (n, 3): the smallest of those that are proven to do
+    so. off: how deep the points have to lie in it."""
     within = np.asarray(part.vertices)
-    hull = _rounded(within if vertices is None else simplified(within, vertices).vertices)
-    if _contains(hull, corners, off):
-        return hull
     target = np.concatenate([within, corners])
-    hull = _rounded(simplified(target, vertices, enough).vertices)
+    fits = vertices is None or len(within) <= vertices
+    start = _rounded(within if fits else simplified(target, vertices).vertices)
+    if _contains(start, corners, off):
+        return start
+    starts = [start]
+    if vertices is None or vertices >= _BOX:
+        starts += [_rounded(box) for box in _boxes(target)]
     margin = _MARGIN * float(np.abs(target).max()) + off
-    for _ in range(_ROUNDS):
+    proven = [_proven(each, target, corners, off, margin) for each in starts]
+    smallest = min(filter(None, proven), key=volume, default=None)
+    if smallest is None:
+        raise DecompositionError(
+            errors.NOT_ENCLOSED,
+            "no part in 32-bit numbers is proven to contain its piece of the mesh",
+        )
+    return smallest
+
+
+def _proven(
+    hull: Polytope, target: Floats, corners: Floats, off: float, margin: float
+) -> Polytope | None:
+    """The hull, grown; None: its numbers are too coarse."""
+    for number in range(_ROUNDS):
         if hull.dimension < 3:
-            break
-        hull = _rounded(_pushed(hull, target, margin))
+            return None
+        hull = _rounded(_pushed(hull, target, margin * 2.0**number))
         if _contains(hull, corners, off):
             return hull
-        margin *= 2.0
-    raise DecompositionError(
-        errors.NOT_ENCLOSED, "no part in 32-bit numbers is proven to contain its piece of the mesh"
-    )
+    return None
+
+
+def _boxes(points: Floats) -> Iterator[Floats]:
+    """Yield the corners (8, 3) of boxes around points: along the axes, and along the points."""
+    for axes in (np.eye(3), np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2]):
+        low, high = (points @ axes.T).min(axis=0), (points @ axes.T).max(axis=0)
+        yield np.array(list(product(*zip(low, high, strict=True)))) @ axes
 
 
 def _rounded(points: Floats) -> Polytope:
@@ -103,6 +120,7 @@ def _pushed(hull: Polytope, target: Floats, margin: float) -> Floats:
     for number, triangle in enumerate(triangles.tolist()):
         for vertex in triangle:
             faces[vertex].append(number)
+    out = points - points.mean(axis=0)  # beyond each face around a vertex
     moves = np.zeros_like(points)
     for vertex, around in enumerate(faces):
         own, wanted, move = normals[around], lacking[around], moves[vertex]
@@ -112,6 +130,10 @@ def _pushed(hull: Polytope, target: Floats, margin: float) -> Floats:
             if left[worst] <= 0.0:
                 break
             move += left[worst] * own[worst]
+        else:
+            heights = own @ out[vertex]
+            left = np.maximum(0.0, wanted - own @ move)
+            move += np.max(left / np.where(heights > 0.0, heights, np.inf)) * out[vertex]
     return points + moves
 
 

@@ -28,12 +28,12 @@ def merged_parts(parts: Sequence[Polytope], most: int, deadline: Deadline) -> li
     """Return at most so many parts, which contain the given ones. Raises DecompositionError at the
     deadline."""
     bodies = list(parts)
-    volumes = [_volume(body) for body in bodies]
+    volumes = [volume(body) for body in bodies]
     added = np.full((len(bodies), len(bodies)), np.inf)
 
     def compare(a: int, b: int) -> None:
         deadline.check()
-        added[a, b] = _volume(_joined(bodies[a], bodies[b])) - volumes[a] - volumes[b]
+        added[a, b] = volume(_joined(bodies[a], bodies[b])) - volumes[a] - volumes[b]
 
     if len(bodies) > most:
         for b in range(len(bodies)):
@@ -43,7 +43,7 @@ def merged_parts(parts: Sequence[Polytope], most: int, deadline: Deadline) -> li
     while len(left) > most:
         a, b = divmod(int(added.argmin()), len(bodies))
         bodies[a] = _joined(bodies[a], bodies[b])
-        volumes[a] = _volume(bodies[a])
+        volumes[a] = volume(bodies[a])
         left.remove(b)
         added[b], added[:, b] = np.inf, np.inf
         for other in left:
@@ -52,10 +52,9 @@ def merged_parts(parts: Sequence[Polytope], most: int, deadline: Deadline) -> li
     return [bodies[number] for number in left]
 
 
-def simplified(points: Floats, most: int | None, enough: float = 0.0) -> Polytope:
+def simplified(points: Floats, most: int) -> Polytope:
     """Return a hull of at most so many of the points (n, 3), the farthest from the hull of those
-    before it first. It ends early if no point is farther than `enough` from it. Raises
-    DecompositionError if the points are flat."""
+    before it first. Raises DecompositionError if the points are flat."""
     chosen = _corners(points)
     while True:
         hull = hull_of(points[chosen])
@@ -63,8 +62,7 @@ def simplified(points: Floats, most: int | None, enough: float = 0.0) -> Polytop
             raise DecompositionError(errors.FLAT, "a part is too thin for the numbers of the file")
         heights = highest(points, *planes_of(hull))
         farthest = int(heights.argmax())
-        full = most is not None and len(chosen) >= most
-        if full or heights[farthest] <= enough or farthest in chosen:
+        if len(chosen) >= most or heights[farthest] <= 0.0 or farthest in chosen:
             return hull
         chosen.append(farthest)
 
@@ -91,5 +89,5 @@ def _joined(a: Polytope, b: Polytope) -> Polytope:
     return hull_of(np.concatenate([a.vertices, b.vertices]))
 
 
-def _volume(body: Polytope) -> float:
+def volume(body: Polytope) -> float:
     return body.to_mesh().topology().volume
