@@ -1,7 +1,7 @@
 """Splits concave meshes into convex parts with a measured error, and caches them on disk."""
 
 from satcheck.decompose.cache import Cache, user_cache
-from satcheck.decompose.decomposition import decompose, placed
+from satcheck.decompose.decomposition import decompose
 from satcheck.decompose.engines import ENGINES, Limits
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.result import Decomposition, Note
@@ -16,6 +16,5 @@ __all__ = [
     "Limits",
     "Note",
     "decompose",
-    "placed",
     "user_cache",
 ]

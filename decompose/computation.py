@@ -4,13 +4,14 @@ limits."""
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
 from msgspec.structs import replace
 
 from satcheck.core import Mesh, Polytope, Surface
+from satcheck.core.transform import Transform
 from satcheck.core.worker import (
     WorkerError,
     WorkerFailed,
@@ -20,7 +21,7 @@ from satcheck.core.worker import (
 )
 from satcheck.decompose import errors
 from satcheck.decompose.coacd_server import decode_reply, encode_request
-from satcheck.decompose.components import diagonal, independent_pieces
+from satcheck.decompose.components import diagonal, independent_pieces, oriented
 from satcheck.decompose.enclosing import enclosing_parts
 from satcheck.decompose.engines import Limits
 from satcheck.decompose.error_bounds import missing_error, outside_error
@@ -90,25 +91,33 @@ def held_against(
     )
 
 
-def fitted(mesh: Mesh, result: Decomposition, limits: Limits, seconds: float) -> Decomposition:
-    """Return the parts of a welded mesh fitted to limits, with errors that are measured again.
+def placed(
+    mesh: Mesh, result: Decomposition, transform: Transform | None, limits: Limits, seconds: float
+) -> Decomposition:
+    """Place the parts of a mesh with it, and fit them to limits. What is new is not cached.
 
-    Raises DecompositionError.
+    mesh: as placed. transform: affine, of the mesh that was split; None: it stands where it was.
+    The errors are measured again, of the mesh as placed. seconds: the limit for all this. Raises
+    DecompositionError, and ValueError on overflow.
     """
-    deadline, threshold = Deadline(seconds), result.settings.threshold
-    parts: Sequence[Polytope] = result.parts
+    if transform is None and limits == Limits():
+        return result
+    mesh, deadline, parts = oriented(mesh), Deadline(seconds), result.parts
+    if transform is not None:
+        moved = (part.to_mesh().transformed(transform) for part in parts)
+        parts = tuple(part.convex_hull() for part in moved)
     if limits.parts is not None:
         parts = merged_parts(parts, limits.parts, deadline)
     if limits.enclose:
         parts = enclosing_parts(mesh, parts, limits.vertices, deadline)
     elif limits.vertices is not None:
-        parts = [simplified(np.asarray(part.vertices), limits.vertices) for part in parts]
+        parts = tuple(simplified(np.asarray(part.vertices), limits.vertices) for part in parts)
     surface = Surface(mesh, mesh.topology().solid)
     return replace(
         result,
-        parts=tuple(parts),
+        parts=parts,
         inner=(None,) * len(parts),
-        outside=outside_error(parts, surface, threshold),
+        outside=outside_error(parts, surface, result.settings.threshold),
         missing=0.0 if limits.enclose else missing_error(mesh, parts, deadline),
     )
 

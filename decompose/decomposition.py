@@ -11,10 +11,9 @@ from msgspec.structs import replace
 
 from satcheck.core import Mesh, Polytope
 from satcheck.core.mesh_arrays import MeshLike, arrays_of, require_usable
-from satcheck.core.transform import Transform
 from satcheck.decompose import errors
 from satcheck.decompose.cache import Cache
-from satcheck.decompose.engines import Limits
+from satcheck.decompose.components import oriented
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.result import CACHE_UNAVAILABLE, Decomposition, Note, decode, encode
 from satcheck.decompose.settings import DecompositionSettings
@@ -47,7 +46,7 @@ def decompose(
     """
     settings = DecompositionSettings(threshold=threshold, seed=seed)
     started = time.monotonic()
-    mesh = _oriented(mesh if isinstance(mesh, Mesh) else _mesh_of(mesh))
+    mesh = oriented(mesh if isinstance(mesh, Mesh) else _mesh_of(mesh))
     hull = _checked_hull(mesh)
     solid = mesh.topology().solid
     if solid and mesh.convexity_defect(0.0) == 0.0:
@@ -58,36 +57,6 @@ def decompose(
     if cache is None:
         return _compute(mesh, settings, seconds, megabytes)
     return _cached(mesh, settings, seconds, megabytes, cache)
-
-
-def placed(
-    mesh: Mesh,
-    result: Decomposition,
-    transform: Transform | None,
-    limits: Limits,
-    *,
-    seconds: float = 120.0,
-) -> Decomposition:
-    """Place the parts of a mesh with it, and fit them to limits.
-
-    mesh: as placed. transform: affine, of the mesh that was split; None: it stands where it was.
-    The errors are measured again, for the mesh as placed. seconds: the limit for all this. The
-    result is not cached, as that of `decompose` is. Raises DecompositionError, and ValueError on
-    overflow.
-    """
-    if transform is None and limits == Limits():
-        return result
-    from satcheck.decompose.computation import fitted  # needs numpy
-
-    if transform is not None:
-        meshes = (part.to_mesh().transformed(transform) for part in result.parts)
-        result = replace(result, parts=tuple(each.convex_hull() for each in meshes))
-    return fitted(_oriented(mesh), result, limits, seconds)
-
-
-def _oriented(mesh: Mesh) -> Mesh:
-    mesh = mesh.welded()
-    return mesh.oriented() if mesh.topology().manifold else mesh
 
 
 def _mesh_of(mesh: MeshLike) -> Mesh:

@@ -3,7 +3,8 @@
 The surface is cut into pieces, and each is assigned to a part (`error_bounds.assigned_pieces`). A
 part begins as it is, or as the hull of few of its points, or as a box. Faces above which points lie
 are moved outward, by moving their corners: the number of vertices does not grow. The smallest
-result counts. All coordinates are 32-bit numbers, as in the files and in physics engines, so that no later rounding moves a vertex.
+result counts. All coordinates are 32-bit numbers, as in the files and in physics engines, so that
+no later rounding moves a vertex.
 
 The proof: each corner of each piece lies in the hull of the rounded vertices, so the piece does, as
 the hull is convex. A corner is below a face if its determinant in float64 exceeds the bound of
@@ -44,7 +45,7 @@ _ENTRIES_AT_ONCE: Final = 1 << 20
 
 def enclosing_parts(
     mesh: Mesh, parts: Sequence[Polytope], vertices: int | None, deadline: Deadline
-) -> list[Polytope]:
+) -> tuple[Polytope, ...]:
     """Return the parts, grown, which are proven to contain the surface of the mesh.
 
     vertices: the most of a part; None: any number. Their coordinates are 32-bit numbers. Raises
@@ -56,7 +57,7 @@ def enclosing_parts(
         deadline.check()
         corners = np.array([point for piece in own for point in piece]).reshape(-1, 3)
         grown.append(_grown(part, np.unique(corners, axis=0), vertices, 0.0 if whole else off))
-    return grown
+    return tuple(grown)
 
 
 def _grown(part: Polytope, corners: Floats, vertices: int | None, off: float) -> Polytope:
@@ -64,8 +65,10 @@ def _grown(part: Polytope, corners: Floats, vertices: int | None, off: float) ->
     so. off: how deep the points have to lie in it."""
     within = np.asarray(part.vertices)
     target = np.concatenate([within, corners])
-    fits = vertices is None or len(within) <= vertices
-    start = _rounded(within if fits else simplified(target, vertices).vertices)
+    if vertices is not None and len(within) > vertices:
+        start = _rounded(simplified(target, vertices).vertices)
+    else:
+        start = _rounded(within)
     if _contains(start, corners, off):
         return start
     starts = [start]

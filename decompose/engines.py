@@ -6,27 +6,16 @@ from typing import Final
 
 from msgspec import Struct
 
-from satcheck.decompose.errors import BAD_SETTING, DecompositionError
-
 LEAST_VERTICES: Final = 4  # of a solid
 
 
 class Limits(Struct, frozen=True):
-    """parts: the most parts of a mesh. vertices: the most vertices of a part; None: any number.
-    enclose: the parts have to contain the surface of the mesh."""
+    """parts: the most parts of a mesh, 1 or more. vertices: the most vertices of a part, 4 or more.
+    None: any number. enclose: the parts have to contain the surface of the mesh."""
 
     parts: int | None = None
     vertices: int | None = None
     enclose: bool = False
-
-    def __post_init__(self) -> None:
-        for name, value, least in (
-            ("parts", self.parts, 1),
-            ("vertices of a part", self.vertices, LEAST_VERTICES),
-        ):
-            if value is not None and value < least:
-                message = f"at most {value} {name}: the limit must be {least} or more"
-                raise DecompositionError(BAD_SETTING, message)
 
 
 class Engine(Struct, frozen=True):

@@ -18,23 +18,9 @@ FAILED: Final = "decomposition-failed"
 BAD_OUTPUT: Final = "decomposition-bad-output"
 NOT_ENCLOSED: Final = "decomposition-not-enclosed"
 
-CODES: Final = frozenset(
-    {
-        BAD_SETTING,
-        EMPTY,
-        FLAT,
-        TIMEOUT,
-        OUT_OF_MEMORY,
-        CRASHED,
-        FAILED,
-        BAD_OUTPUT,
-        NOT_ENCLOSED,
-    }
-)
-
 
 class DecompositionError(SatcheckError):
-    """The mesh could not be split into convex parts; `code` is one of CODES."""
+    """The mesh could not be split into convex parts; `code` is one of those above."""
 
 
 class Deadline:

@@ -8,6 +8,7 @@ Parts are merged, the two first whose hull adds the least volume. CoACD has limi
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
-def merged_parts(parts: Sequence[Polytope], most: int, deadline: Deadline) -> list[Polytope]:
+def merged_parts(parts: Sequence[Polytope], most: int, deadline: Deadline) -> tuple[Polytope, ...]:
     """Return at most so many parts, which contain the given ones. Raises DecompositionError at the
     deadline."""
     bodies = list(parts)
@@ -35,11 +36,9 @@ def merged_parts(parts: Sequence[Polytope], most: int, deadline: Deadline) -> li
         deadline.check()
         added[a, b] = volume(_joined(bodies[a], bodies[b])) - volumes[a] - volumes[b]
 
-    if len(bodies) > most:
-        for b in range(len(bodies)):
-            for a in range(b):
-                compare(a, b)
     left = list(range(len(bodies)))
+    for a, b in combinations(left, 2) if len(left) > most else ():
+        compare(a, b)
     while len(left) > most:
         a, b = divmod(int(added.argmin()), len(bodies))
         bodies[a] = _joined(bodies[a], bodies[b])
@@ -49,7 +48,7 @@ def merged_parts(parts: Sequence[Polytope], most: int, deadline: Deadline) -> li
         for other in left:
             if other != a:
                 compare(min(a, other), max(a, other))
-    return [bodies[number] for number in left]
+    return tuple(bodies[number] for number in left)
 
 
 def simplified(points: Floats, most: int) -> Polytope:

@@ -23,14 +23,8 @@ from satcheck.cli.robot_parts import URDF, in_links, write_urdf
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import HalfSpace, is_curved
 from satcheck.core.steps import step
-from satcheck.decompose import (
-    Decomposition,
-    DecompositionError,
-    Limits,
-    decompose,
-    placed,
-    user_cache,
-)
+from satcheck.decompose import Decomposition, DecompositionError, Limits, decompose, user_cache
+from satcheck.decompose.computation import placed
 from satcheck.decompose.engines import ENGINES, LEAST_VERTICES
 from satcheck.report.decomposition import (
     DecomposedBody,
@@ -154,12 +148,11 @@ def command(
     ending = "" if parts_out is None else parts_out.suffix.lower()
     bodies = splitter.split_each(in_links(scene) if ending == URDF else scene.bodies)
     parts = [part for each in bodies for part in _named(*each)]
-    if parts_out is not None and parts:
-        if ending == URDF:
-            named = {body.id: list(_named(body, result)) for body, result in bodies}
-            write_urdf(parts_out, scene, named, inputs)
-        else:
-            write_file(parts_out, written_meshes.written(parts, ending, scene.units))
+    if parts_out is not None and parts and ending == URDF:
+        named = {body.id: list(_named(body, result)) for body, result in bodies}
+        write_urdf(parts_out, scene, named, inputs)
+    elif parts_out is not None and parts:
+        write_file(parts_out, written_meshes.written(parts, ending, scene.units))
     report = DecompositionReport(
         tool=tool(),
         units=scene.units,
