@@ -16,7 +16,7 @@ from satcheck.cli.output import cannot_write, write_file
 from satcheck.scene import Body, Scene, written_meshes
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.opening import read_whole
-from satcheck.scene.robot import RobotBody, SceneRobot
+from satcheck.scene.robot import SceneRobot
 from satcheck.scene.robot.written_urdf import urdf_of_parts
 
 URDF: Final = ".urdf"
@@ -27,12 +27,9 @@ def in_links(scene: Scene) -> list[Body]:
     """Return the meshes of a robot, each in the frame of its link. Raises click.UsageError unless
     the scene is one robot."""
     robot = _only_robot(scene)
-    placed: dict[str, RobotBody] = {body.id: body for body in robot.bodies}
-    return [
-        replace(body, transform=None if offset == IDENTITY else offset)
-        for body in scene.bodies
-        if body.shape is None and (offset := placed[body.id].offset)
-    ]
+    offsets = {body.id: None if body.offset == IDENTITY else body.offset for body in robot.bodies}
+    meshes = (body for body in scene.bodies if body.shape is None)
+    return [replace(body, transform=offsets[body.id]) for body in meshes]
 
 
 def write_urdf(
@@ -47,20 +44,22 @@ def write_urdf(
     names: dict[tuple[bytes, bytes], str] = {}
     contents: dict[str, bytes] = {}
     for name, mesh in (part for own in parts.values() for part in own):
-        key = mesh.to_bytes()
-        if key not in names:
+        if (key := mesh.to_bytes()) not in names:
             plain = _UNSAFE.sub("_", name)
-            number = sum(file == plain or file.startswith(f"{plain}.") for file in contents)
-            file = f"{plain}.{number}" if number else plain
-            names[key] = f"{folder.name}/{file}.obj"
-            contents[file] = written_meshes.written([(file, mesh)], ".obj", None)
+            names[key] = (
+                f"{plain}.obj" if f"{plain}.obj" not in contents else f"{plain}.{len(names)}.obj"
+            )
+            contents[names[key]] = written_meshes.written([(plain, mesh)], ".obj", None)
     path = robot.robot.file
     back = os.path.relpath(Path(path).absolute().parent, output.absolute().parent)
     document = urdf_of_parts(
         read_whole(path, path, inputs.permitted.most_of_tree),
         robot,
         {id_: entry.line for id_, entry in scene.entries.items()},
-        {id_: [names[mesh.to_bytes()] for _, mesh in own] for id_, own in parts.items()},
+        {
+            id_: [f"{folder.name}/{names[mesh.to_bytes()]}" for _, mesh in own]
+            for id_, own in parts.items()
+        },
         inputs.geometry or "collision",
         "" if back == "." else Path(back).as_posix(),
     )
@@ -70,14 +69,14 @@ def write_urdf(
         raise cannot_write(str(folder), error.strerror) from None
     read = {Path(body.file.path).resolve() for body in scene.bodies}
     for file, content in contents.items():
-        place = folder / f"{file}.obj"
-        if place.resolve() in read:
-            raise click.UsageError(f"{place} would overwrite an input")
-        write_file(place, content)
+        if (folder / file).resolve() in read:
+            raise click.UsageError(f"{folder / file} would overwrite an input")
+        write_file(folder / file, content)
     write_file(output, document)
 
 
 def _only_robot(scene: Scene) -> SceneRobot:
-    if len(scene.robots) != 1:
+    own = [body.id for robot in scene.robots for body in robot.bodies]
+    if len(scene.robots) != 1 or not {body.id for body in scene.bodies}.issubset(own):
         raise click.UsageError(f"parts as {URDF} are those of one robot: give its URDF alone")
     return scene.robots[0]

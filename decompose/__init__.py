@@ -2,10 +2,9 @@
 
 from satcheck.decompose.cache import Cache, user_cache
 from satcheck.decompose.decomposition import decompose
-from satcheck.decompose.engines import ENGINES, Limits
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.result import Decomposition, Note
-from satcheck.decompose.settings import DecompositionSettings
+from satcheck.decompose.settings import ENGINES, DecompositionSettings, Limits
 
 __all__ = [
     "ENGINES",

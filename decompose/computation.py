@@ -23,7 +23,6 @@ from satcheck.decompose import errors
 from satcheck.decompose.coacd_server import decode_reply, encode_request
 from satcheck.decompose.components import diagonal, independent_pieces, oriented
 from satcheck.decompose.enclosing import enclosing_parts
-from satcheck.decompose.engines import Limits
 from satcheck.decompose.error_bounds import missing_error, outside_error
 from satcheck.decompose.errors import Deadline, DecompositionError
 from satcheck.decompose.fitting import merged_parts, simplified
@@ -36,7 +35,7 @@ from satcheck.decompose.result import (
     Note,
     Stored,
 )
-from satcheck.decompose.settings import DecompositionSettings
+from satcheck.decompose.settings import DecompositionSettings, Limits
 
 _SERVER: Final = "satcheck.decompose.coacd_server"
 # A piece this close to its hull, in diagonals of its bounding box, is one part. CoACD at the same

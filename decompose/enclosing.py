@@ -1,6 +1,6 @@
 """Grows convex parts until they contain the surface of their mesh, and proves that they do.
 
-The surface is cut into pieces, and each is assigned to a part (`error_bounds.assigned_pieces`). A
+The surface is cut into pieces, and each is assigned to a part (`error_bounds.Bodies.assigned`). A
 part begins as it is, or as the hull of few of its points, or as a box. Faces above which points lie
 are moved outward, by moving their corners: the number of vertices does not grow. The smallest
 result counts. All coordinates are 32-bit numbers, as in the files and in physics engines, so that
@@ -23,7 +23,7 @@ import numpy as np
 
 from satcheck.core import Mesh, Polytope, Surface
 from satcheck.decompose import errors
-from satcheck.decompose.error_bounds import assigned_pieces, planes_of
+from satcheck.decompose.error_bounds import Bodies, Point, planes_of
 from satcheck.decompose.errors import Deadline, DecompositionError
 from satcheck.decompose.fitting import hull_of, simplified, volume
 
@@ -51,12 +51,17 @@ def enclosing_parts(
     vertices: the most of a part; None: any number. Their coordinates are 32-bit numbers. Raises
     DecompositionError if nothing is proven.
     """
-    pieces, uncut, off = assigned_pieces(mesh, parts, deadline)
+    bodies = Bodies(parts)
+    corners: list[list[Point]] = [[] for _ in parts]
+    off, cut_error = [0.0] * len(parts), bodies.cut_error(mesh)
+    for number, piece, whole in bodies.assigned(mesh, deadline):
+        corners[number] += piece
+        off[number] = off[number] if whole else cut_error
     grown = []
-    for part, own, whole in zip(parts, pieces, uncut, strict=True):
+    for part, own, depth in zip(parts, corners, off, strict=True):
         deadline.check()
-        corners = np.array([point for piece in own for point in piece]).reshape(-1, 3)
-        grown.append(_grown(part, np.unique(corners, axis=0), vertices, 0.0 if whole else off))
+        points = np.unique(np.array(own).reshape(-1, 3), axis=0)
+        grown.append(_grown(part, points, vertices, depth))
     return tuple(grown)
 
 

@@ -74,58 +74,13 @@ def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NE
     At most about twice that distance, or 1e-6 of the mesh's diagonal above it. Raises
     DecompositionError at the deadline.
     """
-    bodies = _Bodies(parts)
-    pieces = _assigned(mesh, bodies, deadline)
+    bodies = Bodies(parts)
+    pieces = bodies.assigned(mesh, deadline)
     error = max((bodies.largest_distance(piece, part) for part, piece, _ in pieces), default=0.0)
     return error + _ROUNDINGS * mesh.largest_coordinate if error > 0.0 else 0.0
 
 
-def assigned_pieces(
-    mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline
-) -> tuple[list[list[Polygon]], list[bool], float]:
-    """Cut the surface of a mesh into pieces, and assign each to a part near it.
-
-    Returns the pieces of each part; whether all of these are triangles of the mesh, uncut; and how
-    far a point of a triangle may be from the pieces that it was cut into. Raises DecompositionError
-    at the deadline.
-    """
-    bodies = _Bodies(parts)
-    pieces: list[list[Polygon]] = [[] for _ in parts]
-    uncut = [True] * len(parts)
-    for part, piece, whole in _assigned(mesh, bodies, deadline):
-        pieces[part].append(piece)
-        uncut[part] &= whole
-    return pieces, uncut, _CUT_ROUNDINGS * bodies.plane_count * mesh.largest_coordinate
-
-
-def _assigned(
-    mesh: Mesh, bodies: _Bodies, deadline: Deadline
-) -> Iterator[tuple[int, Polygon, bool]]:
-    """Yield (part, piece of the mesh's surface, whether it is a whole triangle)."""
-    vertices = np.asarray(mesh.vertices)
-    triangles = np.asarray(mesh.triangles)
-    above = bodies.heights(vertices)[triangles].max(axis=1)  # (triangles, parts)
-    nearest = above.argmin(axis=1)
-    least = above[np.arange(len(above)), nearest]
-    slack = _FIRST_SLACK * diagonal(mesh) + _FIRST_SLACK_FAR * mesh.largest_coordinate
-    order = np.argsort(least, kind="stable")
-    for polygon, part, height in zip(
-        vertices[triangles[order]].tolist(),
-        nearest[order].tolist(),
-        least[order].tolist(),
-        strict=True,
-    ):
-        deadline.check()
-        if height <= slack:
-            yield part, polygon, True
-            continue
-        while (pieces := bodies.cover(polygon, slack)) is None:
-            slack *= _SLACK_GROWTH
-        for number, piece in pieces:
-            yield number, piece, False
-
-
-class _Bodies:
+class Bodies:
     """The parts, prepared for many queries."""
 
     def __init__(self, parts: Sequence[Polytope]) -> None:
@@ -133,7 +88,38 @@ class _Bodies:
         self._surfaces = [Surface(part.to_mesh(), True) for part in parts]
         bounds = np.array([surface.mesh.bounds for surface in self._surfaces])
         self._low, self._high = bounds[:, 0], bounds[:, 1]
-        self.plane_count = sum(len(normals) for normals, _ in self._planes)
+
+    def assigned(self, mesh: Mesh, deadline: Deadline) -> Iterator[tuple[int, Polygon, bool]]:
+        """Cut the surface of a mesh into pieces near the parts.
+
+        Yield (part, piece, whether it is a whole triangle). A point of a triangle is within
+        `cut_error` of the pieces that it was cut into. Raises DecompositionError at the deadline.
+        """
+        vertices = np.asarray(mesh.vertices)
+        triangles = np.asarray(mesh.triangles)
+        above = self.heights(vertices)[triangles].max(axis=1)  # (triangles, parts)
+        nearest = above.argmin(axis=1)
+        least = above[np.arange(len(above)), nearest]
+        slack = _FIRST_SLACK * diagonal(mesh) + _FIRST_SLACK_FAR * mesh.largest_coordinate
+        order = np.argsort(least, kind="stable")
+        for polygon, part, height in zip(
+            vertices[triangles[order]].tolist(),
+            nearest[order].tolist(),
+            least[order].tolist(),
+            strict=True,
+        ):
+            deadline.check()
+            if height <= slack:
+                yield part, polygon, True
+                continue
+            while (pieces := self.cover(polygon, slack)) is None:
+                slack *= _SLACK_GROWTH
+            for number, piece in pieces:
+                yield number, piece, False
+
+    def cut_error(self, mesh: Mesh) -> float:
+        planes = sum(len(normals) for normals, _ in self._planes)
+        return _CUT_ROUNDINGS * planes * mesh.largest_coordinate
 
     def heights(self, points: Floats) -> Floats:
         """(points, parts): the height above the highest plane of each part; at most 0 inside."""

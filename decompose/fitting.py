@@ -15,9 +15,9 @@ import numpy as np
 
 from satcheck.core import Mesh, Polytope
 from satcheck.decompose import errors
-from satcheck.decompose.engines import LEAST_VERTICES
 from satcheck.decompose.error_bounds import highest, planes_of
 from satcheck.decompose.errors import Deadline, DecompositionError
+from satcheck.decompose.settings import LEAST_VERTICES
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

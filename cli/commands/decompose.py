@@ -25,7 +25,7 @@ from satcheck.core.shapes import HalfSpace, is_curved
 from satcheck.core.steps import step
 from satcheck.decompose import Decomposition, DecompositionError, Limits, decompose, user_cache
 from satcheck.decompose.computation import placed
-from satcheck.decompose.engines import ENGINES, LEAST_VERTICES
+from satcheck.decompose.settings import ENGINES, LEAST_VERTICES
 from satcheck.report.decomposition import (
     DecomposedBody,
     DecompositionOptions,
@@ -258,7 +258,7 @@ def _table(report: DecompositionReport, page: Page) -> str:
         "triangles": [f"{body.triangles:,}" for body in made],
         "parts": [f"{len(body.parts or ()):,}" for body in made],
         f"parts stick out{named}": [_error(body.outside) for body in made],
-        f"mesh sticks out{named}": [_missing(body) for body in made],
+        f"mesh sticks out{named}": ["0, proven" if b.encloses else _error(b.missing) for b in made],
         "time": ["cached" if b.from_cache else duration((b.seconds or 0.0) * 1e6) for b in made],
     }
     columns = [Column("body", tuple(body.id for body in made), named=True)]
@@ -272,10 +272,6 @@ def _table(report: DecompositionReport, page: Page) -> str:
 def _error(length: float | None) -> str:
     """Return a measured upper bound."""
     return f"<= {at_most(length)}" if length else "0"
-
-
-def _missing(body: DecomposedBody) -> str:
-    return "0, proven" if body.encloses else _error(body.missing)
 
 
 def _summary(report: DecompositionReport, made: list[DecomposedBody], unit: str | None) -> str:

@@ -51,7 +51,7 @@ def read_tree(path: str, location: StrPath, permitted: Permitted, *roots: str) -
 
     Text between elements is ignored. Raises Refused, with the line.
     """
-    document = _parse(path, read_whole(path, location, permitted.most_of_tree))
+    document, _ = parsed(path, read_whole(path, location, permitted.most_of_tree))
     if roots and document.tag not in roots:
         _refuse_root(document, roots)
     _refuse_macros(document)
@@ -110,21 +110,15 @@ def _with_declaration_first(data: bytes) -> bytes:
     return _DECLARATION.sub(rb"\2\1", data)
 
 
-def well_formed(data: bytes) -> bytes:
-    """Return the document of a robot with its slips mended, for a parser of XML."""
-    document = _with_declaration_first(data)
+def parsed(path: str, data: bytes) -> tuple[Element, bytes]:
+    """Return the outermost element of a robot, and the document that it was parsed from: the data,
+    with slips mended. Raises Refused."""
     try:
-        parse_xml(guarded_parser(namespaces=False), document)
-    except Refused:
-        return _with_declaration_first(_mended(data))
-    return document
-
-
-def _parse(path: str, data: bytes) -> Element:
-    try:
+        document = _with_declaration_first(data)
         with suppress(Refused):
-            return read_elements(_with_declaration_first(data), file=path)
-        return read_elements(_with_declaration_first(_mended(data)), file=path)
+            return read_elements(document, file=path), document
+        document = _with_declaration_first(_mended(data))
+        return read_elements(document, file=path), document
     except Refused as error:
         if _ERB in data:
             raise Refused("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
