@@ -64,14 +64,14 @@ class Engine(Struct, frozen=True):
 
 # A hull of v vertices has at most 2 v - 4 triangles, and at most v - 1 meet in a vertex.
 ENGINES: Final = {
-    "bullet": Engine(None, 100, "the manual: at most 100 vertices", "URDF, OBJ"),
+    "bullet": Engine(None, 100, "the manual", "URDF, OBJ"),
     "isaac": Engine(
         32,
         33,
-        "PhysX on a GPU: 64 vertices, 64 polygons, 32 around a vertex; 32 hulls by default",
+        "PhysX on GPUs: 64 polygons, 32 around a vertex; 32 hulls by default",
         "URDF, OBJ, STL, GLB",
     ),
-    "mujoco": Engine(None, 31, "MJX: fewer than 32 vertices", "URDF, OBJ, STL"),
-    "unity": Engine(None, 129, "convex colliders: 255 triangles", "URDF and GLB by packages, OBJ"),
-    "unreal": Engine(64, 32, "the mesh editor: 64 hulls of 32 vertices", "GLB, OBJ"),
+    "mujoco": Engine(None, 31, "MJX: fewer than 32", "URDF, OBJ, STL"),
+    "unity": Engine(None, 129, "255 triangles", "OBJ; URDF, GLB by packages"),
+    "unreal": Engine(64, 32, "its mesh editor", "GLB, OBJ"),
 }

@@ -38,13 +38,8 @@ from satcheck.scene import Body, written_meshes
 from satcheck.scene.units import unit_of
 
 _FILES = ", ".join(written_meshes.FORMATS)
-
-
-def _engines() -> str:
-    """Return the limits of the engines as words."""
-    limits = ((name, each.parts or "any", each.vertices) for name, each in ENGINES.items())
-    return ", ".join(f"{name} ({parts} x {vertices})" for name, parts, vertices in limits)
-
+# Parts and vertices.
+_ENGINES = ", ".join(f"{name} ({e.parts or 'any'} x {e.vertices})" for name, e in ENGINES.items())
 
 # A body, and its convex parts in world coordinates or why there are none.
 _Split = tuple[Body, Decomposition | SatcheckError]
@@ -92,7 +87,7 @@ _Split = tuple[Body, Decomposition | SatcheckError]
     "engine",
     type=click.Choice(tuple(ENGINES)),
     metavar="ENGINE",
-    help=f"The limits that an engine documents, as parts and vertices: {_engines()}. --max-parts "
+    help=f"The limits that an engine documents, as parts and vertices: {_ENGINES}. --max-parts "
     "and --max-vertices override them.",
 )
 @form_option

@@ -60,8 +60,13 @@ def urdf_of_parts(
                 edits.append((end, end, between + _VISUAL.sub(rb"\1collision", text)))
             elif files:
                 edits.append((shape.start, end, text))
-    if back:
-        edits += _moved(data, root, edits, prefix)
+    for each in root.below() if back else ():
+        kept = not any(first <= each.start < last for first, last, _ in edits)
+        named = (
+            kept and each.tag in _NAME_FILES and _FILE.search(data, each.start, _opened(data, each))
+        )
+        if named:
+            edits.append((named.end(), named.end(), prefix))
     return _edited(data, 0, len(data), edits)
 
 
@@ -89,15 +94,6 @@ def _collisions(data: bytes, shape: Element, files: Sequence[str]) -> Iterator[b
         tag = data[shape.start : opened]
         numbered = _NAME.sub(rb"\g<1>\g<2>\g<3>-%d\g<2>" % number, tag, count=1)
         yield numbered + _edited(data, opened, last, edits)
-
-
-def _moved(data: bytes, root: Element, edits: Sequence[_Edit], prefix: bytes) -> Iterator[_Edit]:
-    """Edits of relative names of files, outside of other edits."""
-    for each in root.below():
-        opened = _opened(data, each)
-        named = _FILE.search(data, each.start, opened) if each.tag in _NAME_FILES else None
-        if named and not any(first <= each.start < last for first, last, _ in edits):
-            yield named.end(), named.end(), prefix
 
 
 def _edited(data: bytes, first: int, last: int, edits: Sequence[_Edit]) -> bytes:
