@@ -40,6 +40,8 @@ def urdf_of_parts(
     root, data = parsed(robot.robot.file, data)
     if root.tag != "robot":
         root.refuse("no URDF: parts as .urdf are made from one URDF", "unsupported-feature")
+    if b"\0" in data:  # UTF-16
+        root.refuse("a URDF that is rewritten has to be in ASCII or UTF-8", "bad-encoding")
     edits: list[_Edit] = []
     prefix = f"{quoteattr(back)[1:-1]}/".encode("ascii", "xmlcharrefreplace") if back else b""
     for link in root.all("link"):
@@ -71,11 +73,8 @@ def urdf_of_parts(
 
 
 def _opened(data: bytes, element: Element) -> int:
-    """The end of its start tag. Raises Refused for a document in another encoding."""
-    tag = _START_TAG.match(data, element.start)
-    if tag is None:
-        element.refuse("a URDF that is rewritten has to be in ASCII or UTF-8", "bad-encoding")
-    return tag.end()
+    """The end of its start tag."""
+    return next(_START_TAG.finditer(data, element.start)).end()
 
 
 def _end(data: bytes, element: Element) -> int:
