@@ -7,10 +7,8 @@ result counts. All coordinates are 32-bit numbers, as in the files and in physic
 no later rounding moves a vertex.
 
 The proof: each corner of each piece lies in the hull of the rounded vertices, so the piece does, as
-the hull is convex. A corner is below a face if its determinant in float64 exceeds the bound of
-Jonathan Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
-Predicates" (1997). Corners of pieces that were cut must lie deeper than the roundings of the cuts.
-Corners of whole triangles may lie on the hull; exact signs decide those.
+the hull is convex. Exact signs decide for corners of whole triangles, which may lie on the hull.
+Corners of pieces that were cut must lie deeper than the roundings of the cuts.
 """
 
 from __future__ import annotations
@@ -23,7 +21,7 @@ import numpy as np
 
 from satcheck.core import Mesh, Polytope, Surface
 from satcheck.decompose import errors
-from satcheck.decompose.error_bounds import Bodies, Point, planes_of
+from satcheck.decompose.error_bounds import ROUNDINGS, Bodies, Point, highest, planes_of
 from satcheck.decompose.errors import Deadline, DecompositionError
 from satcheck.decompose.fitting import hull_of, simplified, volume
 
@@ -38,9 +36,6 @@ _MARGIN: Final = 2.0**-22
 _ROUNDS: Final = 16
 _BOX: Final = 8  # corners
 _STEPS: Final = 64  # for the move of one vertex
-# Twice the roundings of the determinant, relative to the sum of the absolute values of its terms.
-_FILTER: Final = 16.0 * 2.0**-53
-_ENTRIES_AT_ONCE: Final = 1 << 20
 
 
 def enclosing_parts(
@@ -123,7 +118,7 @@ def _pushed(hull: Polytope, target: Floats, margin: float) -> Floats:
     """Return the vertices (n, 3), moved so that their faces lie beyond the target by the margin."""
     points, triangles = np.asarray(hull.vertices), np.asarray(hull.triangles)
     normals, offsets = planes_of(hull)
-    lacking = (target @ normals.T).max(axis=0) - offsets + margin
+    lacking = highest(normals, target, np.zeros(len(target))) - offsets + margin
     faces: list[list[int]] = [[] for _ in points]
     for number, triangle in enumerate(triangles.tolist()):
         for vertex in triangle:
@@ -150,25 +145,13 @@ def _contains(hull: Polytope, points: Floats, off: float) -> bool:
     not 0."""
     if hull.dimension < 3:
         return False
-    rest = points[~_is_inside(hull, points, off)]
-    if not len(rest) or off > 0.0:
-        return not len(rest)
     solid = Surface(hull.to_mesh(), True)
-    return all(solid.winding_number((x, y, z)) != 0 for x, y, z in rest.tolist())
-
-
-def _is_inside(hull: Polytope, points: Floats, off: float) -> NDArray[np.bool_]:
-    """(n,): whether float64 proves that each point lies deeper than `off` below each face."""
-    a, b, c = np.moveaxis(np.asarray(hull.vertices)[np.asarray(hull.triangles)], 1, 0)
-    u, v = b - a, c - a
-    normals = np.cross(u, v)
-    terms = np.abs(u[:, [1, 2, 0]] * v[:, [2, 0, 1]]) + np.abs(u[:, [2, 0, 1]] * v[:, [1, 2, 0]])
-    deep = off * np.linalg.norm(normals, axis=1) * (1.0 + 2.0**-40)
-    inside = np.ones(len(points), bool)
-    at_once = max(1, _ENTRIES_AT_ONCE // len(a))
-    for first in range(0, len(points), at_once):
-        apart = points[first : first + at_once, None] - a
-        heights = np.einsum("pfk,fk->pf", apart, normals)
-        bounds = _FILTER * np.einsum("pfk,fk->pf", np.abs(apart), terms)
-        inside[first : first + at_once] = (heights + bounds + deep < 0.0).all(axis=1)
-    return inside
+    deep = off + ROUNDINGS * float(
+        max(np.abs(hull.vertices).max(), np.abs(points).max(initial=0.0))
+    )
+    for x, y, z in points.tolist():
+        around, depth = solid.winding_number((x, y, z)), solid.nearest((x, y, z))[0]
+        is_on_it = around is None and depth == 0.0 and off == 0.0
+        if not is_on_it and not (around and (depth > deep or off == 0.0)):
+            return False
+    return True

@@ -39,7 +39,7 @@ _FIRST_SLACK: Final = 1e-6
 _FIRST_SLACK_FAR: Final = 1e-13
 _SLACK_GROWTH: Final = 1.5
 # Roundings of a distance and of a cut point, in units of the largest coordinate.
-_ROUNDINGS: Final = 64.0 * 2.0**-53
+ROUNDINGS: Final = 64.0 * 2.0**-53
 # A plane cuts a piece at most once. A cut point is off the edge by its own roundings, below this,
 # and by no more than the ends of the edge are.
 _CUT_ROUNDINGS: Final = 16.0 * 2.0**-53
@@ -77,7 +77,7 @@ def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NE
     bodies = Bodies(parts)
     pieces = bodies.assigned(mesh, deadline)
     error = max((bodies.largest_distance(piece, part) for part, piece, _ in pieces), default=0.0)
-    return error + _ROUNDINGS * mesh.largest_coordinate if error > 0.0 else 0.0
+    return error + ROUNDINGS * mesh.largest_coordinate if error > 0.0 else 0.0
 
 
 class Bodies:
@@ -178,7 +178,9 @@ def planes_of(part: Polytope) -> tuple[Floats, Floats]:
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
     normals = normals / np.where(lengths > 0.0, lengths, np.inf)[:, None]
-    return normals, np.where(lengths > 0.0, (normals @ corners.T).max(axis=1), np.inf)
+    return normals, np.where(
+        lengths > 0.0, highest(normals, corners, np.zeros(len(corners))), np.inf
+    )
 
 
 def highest(points: Floats, normals: Floats, offsets: Floats) -> Floats:
