@@ -15,8 +15,6 @@ from typing import Literal, NamedTuple
 from msgspec import Struct
 from msgspec.structs import replace
 
-# What the first question needs is imported here: it is no cost of the rung that asks it.
-import satcheck.decompose.computation  # noqa: F401
 from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine

@@ -45,6 +45,12 @@ def merged(meshes: Sequence[Mesh]) -> Mesh:
     )
 
 
+def oriented(mesh: Mesh) -> Mesh:
+    """Return the mesh welded, and wound outward if it is a closed manifold."""
+    mesh = mesh.welded()
+    return mesh.oriented() if mesh.topology().manifold else mesh
+
+
 def diagonal(mesh: Mesh) -> float:
     """The diagonal of the bounding box."""
     low, high = mesh.bounds

@@ -1,4 +1,5 @@
-"""Computes parts, inner parts and errors, and holds stored ones against their mesh."""
+"""Computes parts, inner parts and errors, holds stored ones against their mesh, and fits them to
+limits."""
 
 from __future__ import annotations
 
@@ -6,7 +7,11 @@ import time
 from collections.abc import Iterator
 from typing import Final
 
+import numpy as np
+from msgspec.structs import replace
+
 from satcheck.core import Mesh, Polytope, Surface
+from satcheck.core.transform import Transform
 from satcheck.core.worker import (
     WorkerError,
     WorkerFailed,
@@ -16,9 +21,11 @@ from satcheck.core.worker import (
 )
 from satcheck.decompose import errors
 from satcheck.decompose.coacd_server import decode_reply, encode_request
-from satcheck.decompose.components import diagonal, independent_pieces
+from satcheck.decompose.components import diagonal, independent_pieces, oriented
+from satcheck.decompose.enclosing import enclosing_parts
 from satcheck.decompose.error_bounds import missing_error, outside_error
 from satcheck.decompose.errors import Deadline, DecompositionError
+from satcheck.decompose.fitting import merged_parts, simplified
 from satcheck.decompose.inner_parts import inner_parts, is_inside
 from satcheck.decompose.result import (
     FLAT_PARTS_DROPPED,
@@ -28,7 +35,7 @@ from satcheck.decompose.result import (
     Note,
     Stored,
 )
-from satcheck.decompose.settings import DecompositionSettings
+from satcheck.decompose.settings import DecompositionSettings, Limits
 
 _SERVER: Final = "satcheck.decompose.coacd_server"
 # A piece this close to its hull, in diagonals of its bounding box, is one part. CoACD at the same
@@ -80,6 +87,37 @@ def held_against(
         return None  # CoACD leaves about a third of this
     return Decomposition(
         stored.parts, stored.inner, outside, missing, stored.seconds, True, settings, stored.notes
+    )
+
+
+def placed(
+    mesh: Mesh, result: Decomposition, transform: Transform | None, limits: Limits, seconds: float
+) -> Decomposition:
+    """Place the parts of a mesh with it, and fit them to limits. What is new is not cached.
+
+    mesh: as placed. transform: affine, of the mesh that was split; None: it stands where it was.
+    The errors are measured again, of the mesh as placed. seconds: the limit for all this. Raises
+    DecompositionError, and ValueError on overflow.
+    """
+    if transform is None and limits == Limits():
+        return result
+    mesh, deadline, parts = oriented(mesh), Deadline(seconds), result.parts
+    if transform is not None:
+        moved = (part.to_mesh().transformed(transform) for part in parts)
+        parts = tuple(part.convex_hull() for part in moved)
+    if limits.parts is not None:
+        parts = merged_parts(parts, limits.parts, deadline)
+    if limits.enclose:
+        parts = enclosing_parts(mesh, parts, limits.vertices, deadline)
+    elif limits.vertices is not None:
+        parts = tuple(simplified(np.asarray(part.vertices), limits.vertices) for part in parts)
+    surface = Surface(mesh, mesh.topology().solid)
+    return replace(
+        result,
+        parts=parts,
+        inner=(None,) * len(parts),
+        outside=outside_error(parts, surface, result.settings.threshold),
+        missing=0.0 if limits.enclose else missing_error(mesh, parts, deadline),
     )
 
 

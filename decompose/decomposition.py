@@ -13,6 +13,8 @@ from satcheck.core import Mesh, Polytope
 from satcheck.core.mesh_arrays import MeshLike, arrays_of, require_usable
 from satcheck.decompose import errors
 from satcheck.decompose.cache import Cache
+from satcheck.decompose.components import oriented
+from satcheck.decompose.computation import compute, held_against
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.result import CACHE_UNAVAILABLE, Decomposition, Note, decode, encode
 from satcheck.decompose.settings import DecompositionSettings
@@ -45,9 +47,7 @@ def decompose(
     """
     settings = DecompositionSettings(threshold=threshold, seed=seed)
     started = time.monotonic()
-    mesh = (mesh if isinstance(mesh, Mesh) else _mesh_of(mesh)).welded()
-    if mesh.topology().manifold:
-        mesh = mesh.oriented()
+    mesh = oriented(mesh if isinstance(mesh, Mesh) else _mesh_of(mesh))
     hull = _checked_hull(mesh)
     solid = mesh.topology().solid
     if solid and mesh.convexity_defect(0.0) == 0.0:
@@ -56,7 +56,7 @@ def decompose(
             parts, parts, 0.0, 0.0, time.monotonic() - started, False, settings, ()
         )
     if cache is None:
-        return _compute(mesh, settings, seconds, megabytes)
+        return compute(mesh, settings, seconds, megabytes)
     return _cached(mesh, settings, seconds, megabytes, cache)
 
 
@@ -112,13 +112,13 @@ def _cached(
             cached = _load(cache, key, mesh, settings, seconds)
             if cached is not None:
                 return cached
-            result = _compute(mesh, settings, seconds, megabytes)
+            result = compute(mesh, settings, seconds, megabytes)
             cache.store(key, encode(result))
             return result
     except OSError as error:  # includes TimeoutError
         note = Note(CACHE_UNAVAILABLE, f"the parts were not cached: {error}")
     if result is None:
-        result = _compute(mesh, settings, seconds, megabytes)
+        result = compute(mesh, settings, seconds, megabytes)
     return replace(result, notes=(*result.notes, note))
 
 
@@ -133,14 +133,4 @@ def _load(
         stored = decode(payload)
     except (ValueError, OverflowError):  # not written by satcheck
         return None
-    from satcheck.decompose.computation import held_against
-
     return held_against(mesh, stored, settings, seconds)
-
-
-def _compute(
-    mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
-) -> Decomposition:
-    from satcheck.decompose.computation import compute  # needs numpy
-
-    return compute(mesh, settings, seconds, megabytes)

@@ -20,7 +20,7 @@ width, because faces of the parts lie in faces of the mesh.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -39,7 +39,10 @@ _FIRST_SLACK: Final = 1e-6
 _FIRST_SLACK_FAR: Final = 1e-13
 _SLACK_GROWTH: Final = 1.5
 # Roundings of a distance and of a cut point, in units of the largest coordinate.
-_ROUNDINGS: Final = 64.0 * 2.0**-53
+ROUNDINGS: Final = 64.0 * 2.0**-53
+# A plane cuts a piece at most once. A cut point is off the edge by its own roundings, below this,
+# and by no more than the ends of the edge are.
+_CUT_ROUNDINGS: Final = 16.0 * 2.0**-53
 # Slack of the bound, in diagonals of the mesh's bounding box for a threshold of 1. Parts stick out
 # by about 0.3 * threshold. The first slack is small against that. The second is for parts that
 # hardly stick out.
@@ -71,44 +74,56 @@ def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NE
     At most about twice that distance, or 1e-6 of the mesh's diagonal above it. Raises
     DecompositionError at the deadline.
     """
-    vertices = np.asarray(mesh.vertices)
-    triangles = np.asarray(mesh.triangles)
-    bodies = _Bodies(parts)
-    above = bodies.heights(vertices)[triangles].max(axis=1)  # (triangles, parts)
-    nearest = above.argmin(axis=1)
-    least = above[np.arange(len(above)), nearest]
-    largest = float(np.abs(vertices).max())
-    slack = _FIRST_SLACK * diagonal(mesh) + _FIRST_SLACK_FAR * largest
-    error = 0.0
-    order = np.argsort(least, kind="stable")
-    for polygon, part, height in zip(
-        vertices[triangles[order]].tolist(),
-        nearest[order].tolist(),
-        least[order].tolist(),
-        strict=True,
-    ):
-        deadline.check()
-        bound = bodies.largest_distance(polygon, part) if height <= slack else None
-        while bound is None:
-            bound = bodies.cover(polygon, slack)
-            if bound is None:
-                slack *= _SLACK_GROWTH
-        error = max(error, bound)
-    return error + _ROUNDINGS * largest if error > 0.0 else 0.0
+    bodies = Bodies(parts)
+    pieces = bodies.assigned(mesh, deadline)
+    error = max((bodies.largest_distance(piece, part) for part, piece, _ in pieces), default=0.0)
+    return error + ROUNDINGS * mesh.largest_coordinate if error > 0.0 else 0.0
 
 
-class _Bodies:
+class Bodies:
     """The parts, prepared for many queries."""
 
     def __init__(self, parts: Sequence[Polytope]) -> None:
-        self._planes = [_planes_of(part) for part in parts]
+        self._planes = [planes_of(part) for part in parts]
         self._surfaces = [Surface(part.to_mesh(), True) for part in parts]
         bounds = np.array([surface.mesh.bounds for surface in self._surfaces])
         self._low, self._high = bounds[:, 0], bounds[:, 1]
 
+    def assigned(self, mesh: Mesh, deadline: Deadline) -> Iterator[tuple[int, Polygon, bool]]:
+        """Cut the surface of a mesh into pieces near the parts.
+
+        Yield (part, piece, whether it is a whole triangle). A point of a triangle is within
+        `cut_error` of the pieces that it was cut into. Raises DecompositionError at the deadline.
+        """
+        vertices = np.asarray(mesh.vertices)
+        triangles = np.asarray(mesh.triangles)
+        above = self.heights(vertices)[triangles].max(axis=1)  # (triangles, parts)
+        nearest = above.argmin(axis=1)
+        least = above[np.arange(len(above)), nearest]
+        slack = _FIRST_SLACK * diagonal(mesh) + _FIRST_SLACK_FAR * mesh.largest_coordinate
+        order = np.argsort(least, kind="stable")
+        for polygon, part, height in zip(
+            vertices[triangles[order]].tolist(),
+            nearest[order].tolist(),
+            least[order].tolist(),
+            strict=True,
+        ):
+            deadline.check()
+            if height <= slack:
+                yield part, polygon, True
+                continue
+            while (pieces := self.cover(polygon, slack)) is None:
+                slack *= _SLACK_GROWTH
+            for number, piece in pieces:
+                yield number, piece, False
+
+    def cut_error(self, mesh: Mesh) -> float:
+        planes = sum(len(normals) for normals, _ in self._planes)
+        return _CUT_ROUNDINGS * planes * mesh.largest_coordinate
+
     def heights(self, points: Floats) -> Floats:
         """(points, parts): the height above the highest plane of each part; at most 0 inside."""
-        return np.stack([_highest(points, *planes) for planes in self._planes], axis=1)
+        return np.stack([highest(points, *planes) for planes in self._planes], axis=1)
 
     def distance(self, point: Point, part: int) -> float:
         """The distance to the solid part; 0.0 inside, decided by exact signs."""
@@ -120,13 +135,13 @@ class _Bodies:
         """The largest distance of a point of the polygon to one part."""
         return max((self.distance(point, part) for point in polygon), default=0.0)
 
-    def cover(self, polygon: Polygon, slack: float) -> float | None:
-        """The largest distance of a piece of the polygon to the part that contains it; None: the
-        widened parts do not contain the whole polygon."""
+    def cover(self, polygon: Polygon, slack: float) -> list[tuple[int, Polygon]] | None:
+        """Pieces of the polygon, each with the part that contains it; None: the widened parts do
+        not contain the whole polygon."""
         corners = np.array(polygon)
         near = (corners.max(axis=0) >= self._low - slack).all(axis=1)
         near &= (corners.min(axis=0) <= self._high + slack).all(axis=1)
-        error = 0.0
+        covered: list[tuple[int, Polygon]] = []
         rest = [polygon]
         for part in np.flatnonzero(near).tolist():
             pieces = rest
@@ -137,10 +152,11 @@ class _Bodies:
                     rest.append(piece)
                     continue
                 inside, beyond = without(piece, crossing, slack)
-                error = max(error, self.largest_distance(inside, part))
+                if inside:
+                    covered.append((part, inside))
                 rest += beyond
             if not rest:
-                return error
+                return covered
         return None
 
     def _crossing(self, polygon: Polygon, part: int, slack: float) -> list[Plane] | None:
@@ -154,17 +170,20 @@ class _Bodies:
         return list(zip(normals[cutting].tolist(), offsets[cutting].tolist(), strict=True))
 
 
-def _planes_of(part: Polytope) -> tuple[Floats, Floats]:
-    """((f, 3), (f,)): the part is where normal . x <= offset for each unit normal."""
+def planes_of(part: Polytope) -> tuple[Floats, Floats]:
+    """((f, 3), (f,)): the part is where normal . x <= offset for each unit normal. A triangle
+    without area limits nothing: its normal is 0, its offset infinite."""
     corners = np.asarray(part.vertices)
     a, b, c = np.moveaxis(corners[np.asarray(part.triangles)], 1, 0)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
-    normals = normals[lengths > 0.0] / lengths[lengths > 0.0, None]
-    return normals, (normals @ corners.T).max(axis=1)
+    normals = normals / np.where(lengths > 0.0, lengths, np.inf)[:, None]
+    return normals, np.where(
+        lengths > 0.0, highest(normals, corners, np.zeros(len(corners))), np.inf
+    )
 
 
-def _highest(points: Floats, normals: Floats, offsets: Floats) -> Floats:
+def highest(points: Floats, normals: Floats, offsets: Floats) -> Floats:
     """(n,): the height of each point (n, 3) above the highest plane."""
     at_once = max(1, _ENTRIES_AT_ONCE // len(offsets))
     chunks = (points[first : first + at_once] for first in range(0, len(points), at_once))

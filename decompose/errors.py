@@ -16,14 +16,11 @@ OUT_OF_MEMORY: Final = "decomposition-out-of-memory"
 CRASHED: Final = "decomposition-crashed"
 FAILED: Final = "decomposition-failed"
 BAD_OUTPUT: Final = "decomposition-bad-output"
-
-CODES: Final = frozenset(
-    {BAD_SETTING, EMPTY, FLAT, TIMEOUT, OUT_OF_MEMORY, CRASHED, FAILED, BAD_OUTPUT}
-)
+NOT_ENCLOSED: Final = "decomposition-not-enclosed"
 
 
 class DecompositionError(SatcheckError):
-    """The mesh could not be split into convex parts; `code` is one of CODES."""
+    """The mesh could not be split into convex parts; `code` is one of those above."""
 
 
 class Deadline:

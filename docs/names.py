@@ -15,6 +15,7 @@ from msgspec.structs import fields
 
 from satcheck.audit.settings import Settings
 from satcheck.cli.formats.registry import formats
+from satcheck.decompose import ENGINES
 from satcheck.scene.files.readers import GEOMETRY, Reader, options, readers, robots
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -62,11 +63,19 @@ def settings() -> Iterator[str]:
     yield _code(f"{field.name}={field.default!r}" for field in fields(Settings))
 
 
+def engines() -> Iterator[str]:
+    """Yield each engine with the limits of --for, where they are from, and the files it reads."""
+    for name, known in ENGINES.items():
+        parts = f"{known.parts} parts, " if known.parts else ""
+        yield f"- `{name}`: {parts}{known.vertices} vertices ({known.why}); reads {known.files}"
+
+
 LISTS: Mapping[str, Callable[[], Iterator[str]]] = {
     "read": read,
     "options": options_of_readers,
     "written": written,
     "settings": settings,
+    "engines": engines,
 }
 
 

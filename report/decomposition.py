@@ -29,9 +29,10 @@ class DecomposedBody(Value, frozen=True, kw_only=True):
     """A body with its parts, or with the reason why it has none.
 
     triangles: of the body. outside: the parts stick out of the mesh by at most this. missing: the
-    mesh sticks out of the union of the parts by at most this. failure: why there are no parts;
-    None: there are parts. seconds: wall clock of the computation, even if the parts came from the
-    cache.
+    mesh sticks out of the union of the parts by at most this. encloses: whether it is proven that
+    the parts, as written, contain the surface of the mesh; None: not asked. failure: why there are
+    no parts; None: there are parts. seconds: wall clock of the computation, even if the parts came
+    from the cache.
     """
 
     id: str
@@ -40,6 +41,7 @@ class DecomposedBody(Value, frozen=True, kw_only=True):
     parts: tuple[Part, ...] | None = None
     outside: Length | None = None
     missing: Length | None = None
+    encloses: bool | None = None
     failure: Remark | None = None
     seconds: Length | UnsetType = UNSET
     from_cache: bool | UnsetType = UNSET
@@ -48,10 +50,14 @@ class DecomposedBody(Value, frozen=True, kw_only=True):
 
 class DecompositionOptions(Value, frozen=True, kw_only=True):
     """threshold: the concavity at which CoACD stops splitting, in its own measure. seed: of its
-    random search. seconds: the time limit for one body."""
+    random search. max_parts: of a mesh. max_vertices: of a part; None: any number. enclose: the
+    parts have to contain the mesh. seconds: the time limit for one body."""
 
     threshold: Annotated[float, Meta(gt=0, le=1)]
     seed: Count
+    max_parts: Count | None
+    max_vertices: Count | None
+    enclose: bool
     seconds: Size
 
 

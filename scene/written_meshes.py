@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 Part = tuple[str, Mesh]
 FORMATS = (".glb", ".obj", ".stl")
+_SINGLE = (".glb", ".stl")  # those of 32-bit floats
 _CONTINUES = "\\"  # at the end of a line of OBJ: the next line belongs to it
 
 
@@ -102,7 +103,7 @@ def written(parts: Sequence[Part], suffix: str, units: str | None) -> bytes:
 
 def rounding(parts: Sequence[Part], suffix: str) -> float:
     """An upper bound on how far a vertex moves when its coordinates are rounded for the file."""
-    if suffix == ".obj":
+    if suffix not in _SINGLE:
         return 0.0
     steps = [mesh.vertices - mesh.vertices.astype("<f4") for _, mesh in parts]
     return max((float(np.linalg.norm(step, axis=1).max()) for step in steps), default=0.0)

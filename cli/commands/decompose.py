@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -19,10 +19,13 @@ from satcheck.cli.formats.tables import Column, fitted_each, joined, table
 from satcheck.cli.inputs import load
 from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
 from satcheck.cli.progress import counting
+from satcheck.cli.robot_parts import URDF, in_links, write_urdf
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import HalfSpace, is_curved
 from satcheck.core.steps import step
-from satcheck.decompose import Cache, Decomposition, DecompositionError, decompose, user_cache
+from satcheck.decompose import Decomposition, DecompositionError, Limits, decompose, user_cache
+from satcheck.decompose.computation import placed
+from satcheck.decompose.settings import ENGINES, LEAST_VERTICES
 from satcheck.report.decomposition import (
     DecomposedBody,
     DecompositionOptions,
@@ -35,7 +38,8 @@ from satcheck.scene import Body, written_meshes
 from satcheck.scene.units import unit_of
 
 _FILES = ", ".join(written_meshes.FORMATS)
-
+# Parts and vertices.
+_ENGINES = ", ".join(f"{name} ({e.parts or 'any'} x {e.vertices})" for name, e in ENGINES.items())
 
 # A body, and its convex parts in world coordinates or why there are none.
 _Split = tuple[Body, Decomposition | SatcheckError]
@@ -60,19 +64,52 @@ _Split = tuple[Body, Decomposition | SatcheckError]
     show_default=True,
     help="The seed of CoACD's random search: the same seed gives the same parts.",
 )
+@click.option(
+    "--max-parts",
+    type=option.Whole(min=1),
+    metavar="N",
+    help="At most N parts for a body: those are merged whose hull adds the least volume.",
+)
+@click.option(
+    "--max-vertices",
+    type=option.Whole(min=LEAST_VERTICES),
+    metavar="N",
+    help="At most N vertices for a part.",
+)
+@click.option(
+    "--enclose",
+    is_flag=True,
+    help="Grow the parts until they are proven to contain the body, in the 32-bit numbers that "
+    "engines read.",
+)
+@click.option(
+    "--for",
+    "engine",
+    type=click.Choice(tuple(ENGINES)),
+    metavar="ENGINE",
+    help=f"The limits that an engine documents, as parts and vertices: {_ENGINES}. --max-parts "
+    "and --max-vertices override them.",
+)
 @form_option
 @option.outputs(
     f"Write the parts to FILE ({_FILES}): a node of a GLB or an object of an OBJ file each; an STL "
-    "file holds them all. Or the report (.json). Repeatable."
+    "file holds them all. A .urdf is the robot with its parts for collision geometry, which lie in "
+    "a folder beside it. Or the report (.json). Repeatable."
 )
 @scene_option.split
 @scene_option.units
 @scene_option.reading("body-seconds")
+@scene_option.package
+@scene_option.geometry
 @option.common
 def command(
     outputs: tuple[Path, ...],
     threshold: float,
     seed: int,
+    max_parts: int | None,
+    max_vertices: int | None,
+    enclose: bool,
+    engine: str | None,
     form: str | None,
     **options: Any,
 ) -> int:
@@ -90,7 +127,7 @@ def command(
     Exit codes: 0, every body has its parts; 2, wrong usage, an unreadable input, no parts at all,
     or an internal error; 3, some bodies have no parts.
     """
-    parts_out, output = product_and_report(outputs, written_meshes.FORMATS, form)
+    parts_out, output = product_and_report(outputs, (*written_meshes.FORMATS, URDF), form)
     if not options["paths"]:
         raise click.UsageError("give a mesh file or a scene")
     inputs, form, document = plain_call(options, form, output, parts_out)
@@ -100,21 +137,31 @@ def command(
         scene.require_one_unit()
     if not scene.bodies and form == "table":
         return exit_codes.ERROR  # the error is told
-    bodies = _split_each(scene.bodies, threshold, seed, seconds)
+    known = ENGINES[engine] if engine else Limits()
+    limits = Limits(max_parts or known.parts, max_vertices or known.vertices, enclose)
+    splitter = _Splitter(limits, threshold, seed, seconds)
+    ending = "" if parts_out is None else parts_out.suffix.lower()
+    bodies = splitter.split_each(in_links(scene) if ending == URDF else scene.bodies)
     parts = [part for each in bodies for part in _named(*each)]
-    rounding = None
-    if parts_out is not None:
-        ending = parts_out.suffix.lower()
-        rounding = written_meshes.rounding(parts, ending)
-        if parts:
-            write_file(parts_out, written_meshes.written(parts, ending, scene.units))
+    if parts_out is not None and parts and ending == URDF:
+        named = {body.id: list(_named(body, result)) for body, result in bodies}
+        write_urdf(parts_out, scene, named, inputs)
+    elif parts_out is not None and parts:
+        write_file(parts_out, written_meshes.written(parts, ending, scene.units))
     report = DecompositionReport(
         tool=tool(),
         units=scene.units,
-        settings=DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds),
+        settings=DecompositionOptions(
+            threshold=threshold,
+            seed=seed,
+            max_parts=limits.parts,
+            max_vertices=limits.vertices,
+            enclose=enclose,
+            seconds=seconds,
+        ),
         output=None if parts_out is None else parts_out.as_posix(),
-        rounding=rounding,
-        bodies=tuple(_body_report(*each) for each in bodies),
+        rounding=written_meshes.rounding(parts, ending) if ending else None,
+        bodies=tuple(_body_report(*each, enclose or None) for each in bodies),
         issues=tuple(Issue(*astuple(issue)) for issue in scene.issues),
     )
     failures = [(each.id, each.failure) for each in report.bodies if each.failure is not None]
@@ -126,31 +173,48 @@ def command(
     return exit_codes.INCOMPLETE if failures else exit_codes.CLEAN
 
 
-def _split_each(
-    bodies: Sequence[Body], threshold: float, seed: int, seconds: float
-) -> list[_Split]:
-    store, done = user_cache(), []
-    for number, body in enumerate(counting(bodies, "bodies", "splitting"), 1):
-        with step(f"splitting {body.id}, {number} of {len(bodies)}"):
-            done.append((body, _split(body, threshold, seed, seconds, store)))
-    return done
+class _Splitter:
+    """Splits bodies: each distinct mesh once, and fits its parts once to each of its places."""
 
-
-def _split(
-    body: Body, threshold: float, seed: int, seconds: float, cache: Cache | None
-) -> Decomposition | SatcheckError:
-    if isinstance(body.shape, HalfSpace):
-        return SatcheckError("half-space", "a half space is convex, and has no end")
-    if is_curved(body.shape):
-        return SatcheckError("curved-shape", "a curved shape is convex, and has no triangles")
-    try:
-        return decompose(
-            body.world_mesh(), threshold=threshold, seed=seed, seconds=seconds, cache=cache
+    def __init__(self, limits: Limits, threshold: float, seed: int, seconds: float) -> None:
+        self._split = partial(
+            decompose, threshold=threshold, seed=seed, seconds=seconds, cache=user_cache()
         )
-    except (OverflowError, ValueError) as error:
-        return SatcheckError("out-of-range", str(error))
-    except DecompositionError as error:
-        return error
+        self._place = partial(placed, limits=limits, seconds=seconds)
+        self._known: dict[object, Decomposition | SatcheckError] = {}
+
+    def split_each(self, bodies: Sequence[Body]) -> list[_Split]:
+        done = []
+        for number, body in enumerate(counting(bodies, "bodies", "splitting"), 1):
+            with step(f"splitting {body.id}, {number} of {len(bodies)}"):
+                done.append((body, self._parts(body)))
+        return done
+
+    def _parts(self, body: Body) -> Decomposition | SatcheckError:
+        if isinstance(body.shape, HalfSpace):
+            return SatcheckError("half-space", "a half space is convex, and has no end")
+        if is_curved(body.shape):
+            return SatcheckError("curved-shape", "a curved shape is convex, and has no triangles")
+        mesh, transform = body.file.mesh, body.transform
+        content = mesh.to_bytes()
+        parts = self._once(content, partial(self._split, mesh))
+        if isinstance(parts, SatcheckError):
+            return parts
+        return self._once(
+            (content, transform), lambda: self._place(body.world_mesh(), parts, transform)
+        )
+
+    def _once(
+        self, key: object, make: Callable[[], Decomposition]
+    ) -> Decomposition | SatcheckError:
+        if key not in self._known:
+            try:
+                self._known[key] = make()
+            except (OverflowError, ValueError) as error:
+                self._known[key] = SatcheckError("out-of-range", str(error))
+            except DecompositionError as error:
+                self._known[key] = error
+        return self._known[key]
 
 
 def _named(body: Body, result: Decomposition | SatcheckError) -> Iterator[written_meshes.Part]:
@@ -159,7 +223,9 @@ def _named(body: Body, result: Decomposition | SatcheckError) -> Iterator[writte
             yield f"{body.id}-{number}", part.to_mesh()
 
 
-def _body_report(body: Body, result: Decomposition | SatcheckError) -> DecomposedBody:
+def _body_report(
+    body: Body, result: Decomposition | SatcheckError, encloses: bool | None
+) -> DecomposedBody:
     mesh = body.file
     report = DecomposedBody(id=body.id, file=mesh.path, triangles=mesh.mesh.triangle_count)
     if isinstance(result, SatcheckError):
@@ -172,6 +238,7 @@ def _body_report(body: Body, result: Decomposition | SatcheckError) -> Decompose
         ),
         outside=result.outside,
         missing=result.missing,
+        encloses=encloses,
         seconds=result.seconds,
         from_cache=result.from_cache,
         notes=tuple(Remark(note.code, note.message) for note in result.notes),
@@ -186,7 +253,7 @@ def _table(report: DecompositionReport, page: Page) -> str:
         "triangles": [f"{body.triangles:,}" for body in made],
         "parts": [f"{len(body.parts or ()):,}" for body in made],
         f"parts stick out{named}": [_error(body.outside) for body in made],
-        f"mesh sticks out{named}": [_error(body.missing) for body in made],
+        f"mesh sticks out{named}": ["0, proven" if b.encloses else _error(b.missing) for b in made],
         "time": ["cached" if b.from_cache else duration((b.seconds or 0.0) * 1e6) for b in made],
     }
     columns = [Column("body", tuple(body.id for body in made), named=True)]

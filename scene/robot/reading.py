@@ -51,7 +51,7 @@ def read_tree(path: str, location: StrPath, permitted: Permitted, *roots: str) -
 
     Text between elements is ignored. Raises Refused, with the line.
     """
-    document = _parse(path, read_whole(path, location, permitted.most_of_tree))
+    document, _ = parsed(path, read_whole(path, location, permitted.most_of_tree))
     if roots and document.tag not in roots:
         _refuse_root(document, roots)
     _refuse_macros(document)
@@ -110,20 +110,24 @@ def _with_declaration_first(data: bytes) -> bytes:
     return _DECLARATION.sub(rb"\2\1", data)
 
 
-def _parse(path: str, data: bytes) -> Element:
+def parsed(path: str, data: bytes) -> tuple[Element, bytes]:
+    """Return the outermost element of a robot, and the document that it was parsed from: the data,
+    with slips mended. Raises Refused."""
     try:
+        document = _with_declaration_first(data)
         with suppress(Refused):
-            return read_elements(_with_declaration_first(data), file=path)
-        plain = _AMPERSAND.sub(b"&amp;", _without_comments(data))
-        return read_elements(_with_declaration_first(plain), file=path)
+            return read_elements(document, file=path), document
+        document = _with_declaration_first(_mended(data))
+        return read_elements(document, file=path), document
     except Refused as error:
         if _ERB in data:
             raise Refused("xacro", f"{error.message}: {_EXPAND_ERB}", file=path) from None
         raise Refused(error.code, error.message, file=path) from None
 
 
-def _without_comments(data: bytes) -> bytes:
-    """The document with blanks for comments. Programs for robots accept comments that XML does not
-    allow: with -- in them, or before <?xml ...?>; and an & that is no &amp;. All lines keep their
-    numbers."""
-    return _COMMENT.sub(lambda comment: _NO_LINE_END.sub(b" ", comment[0]), data)
+def _mended(data: bytes) -> bytes:
+    """The document with blanks for comments, and &amp; for an & that begins no reference. Programs
+    for robots accept comments that XML does not allow: with -- in them, or before <?xml ...?>. All
+    lines keep their numbers."""
+    plain = _COMMENT.sub(lambda comment: _NO_LINE_END.sub(b" ", comment[0]), data)
+    return _AMPERSAND.sub(b"&amp;", plain)

@@ -1,0 +1,61 @@
+"""A URDF is rewritten in place: all bytes stay but those of its collisions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from satcheck.scene import load_scene
+from satcheck.scene.errors import Refused
+from satcheck.scene.robot.written_urdf import urdf_of_parts
+from tests.cli.process import SAMPLES
+
+TEXT = (
+    '<robot name="r">\n<link name="a"><collision name="x"><origin/><geometry>'
+    '<mesh filename="box.obj"/></geometry></collision><collision><geometry>'
+    '<mesh filename="box.obj"/></geometry></collision>{more}</link></robot>'
+)
+
+
+def rewritten(folder: Path, text: str, encoding: str = "utf-8", back: str = "") -> bytes:
+    """With a file for the first collision, and two for the second."""
+    (folder / "box.obj").write_bytes((SAMPLES / "box.obj").read_bytes())
+    path = folder / "r.urdf"
+    path.write_bytes(text.encode(encoding))
+    scene = load_scene([path])
+    (robot,) = scene.robots
+    lines = {id_: entry.line for id_, entry in scene.entries.items()}
+    parts = {"a/x": ["p/1.obj"], "a/2": ["p/2.obj", "p/ü&.obj"]}
+    return urdf_of_parts(path.read_bytes(), robot, lines, parts, "collision", back)
+
+
+def test_shapes_in_one_line_keep_their_order(tmp_path: Path) -> None:
+    assert rewritten(tmp_path, TEXT.format(more="<!-- ü -->")).decode() == (
+        '<robot name="r">\n<link name="a"><collision name="x-1"><geometry>'
+        '<mesh filename="p/1.obj"/></geometry></collision><collision><geometry>'
+        '<mesh filename="p/2.obj"/></geometry></collision>\n<collision><geometry>'
+        '<mesh filename="p/&#252;&amp;.obj"/></geometry></collision><!-- ü --></link></robot>'
+    )
+
+
+def test_a_shape_without_geometry_in_the_line_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Refused, match="give each a line of its own"):
+        rewritten(tmp_path, TEXT.format(more="<collision/>"))
+
+
+def test_another_encoding_is_refused(tmp_path: Path) -> None:
+    text = f'<?xml version="1.0" encoding="utf-16"?>{TEXT.format(more="")}'
+    with pytest.raises(Refused, match="ASCII or UTF-8"):
+        rewritten(tmp_path, text, "utf-16")
+
+
+def test_relative_names_lead_from_the_new_folder(tmp_path: Path) -> None:
+    more = "".join(
+        f'<visual><geometry><mesh filename="{name}"/></geometry></visual>'
+        for name in ("box.obj", "/abs.obj", "package://p/q.obj", "file://x.obj", "C:/x.obj")
+    )
+    made = rewritten(tmp_path, TEXT.format(more=more), back="../a&b").decode()
+    assert '"../a&amp;b/box.obj"' in made
+    assert made.count("../a") == 1
+    assert made.count('"p/') == 3
