@@ -185,4 +185,25 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget, const
   return result;
 }
 
+double line_distance(const Surface& surface, Vec3 u, Vec3 v, double x, double y, Budget* budget) {
+  double best = INFINITY;  // squared
+  const auto gap = [](const Aabb& box, Vec3 axis, double at) {
+    const Vec3 middle = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;
+    const double reach = std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y + std::fabs(axis.z) * half.z;
+    return std::fmax(0.0, std::fabs(dot(axis, middle) - at) - reach);
+  };
+  const auto meets = [&](const Aabb& box) {
+    const double across = gap(box, u, x), along = gap(box, v, y);
+    return across * across + along * along < best;
+  };
+  visit_where(surface.bvh, surface.mesh, meets, [&](std::uint32_t t) {
+    spend(budget, kTriangleWork);
+    Corners flat = corners(surface.mesh, t);
+    for (Vec3& p : flat) p = {dot(u, p) - x, dot(v, p) - y, 0};
+    best = std::fmin(best, norm_squared(nearest_on_triangle({}, flat)));
+    return best > 0;
+  }, budget);
+  return std::sqrt(best);
+}
+
 }  // namespace satcheck

@@ -1,0 +1,339 @@
+"""How faithful the colliders of links are to what is drawn: how far they stick out of it, how far
+they fall short of it, and which openings they close.
+
+The same files are read twice, for visual and for collision geometry. What moves together is
+compared: the bodies of a link, or of the smallest node that has both below.
+
+The core bounds how far one surface reaches out of the union of others (`union_deviation`). Curved
+shapes are replaced by meshes within them, and the bounds are widened by their sag. An open mesh has
+some unknown fill. So the lower bound is that of the mesh with every fill, and the upper one that of
+its surface alone.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from itertools import chain
+from typing import NamedTuple
+
+import numpy as np
+from msgspec.structs import replace
+
+from satcheck import core
+from satcheck.audit.bodies import PlacedBodies, UnusableBody, place
+from satcheck.audit.body import PlacedBody, mesh_key
+from satcheck.audit.check import check
+from satcheck.audit.checked_pairs import Progress
+from satcheck.audit.openings import SMALLEST, largest_opening
+from satcheck.audit.settings import Settings
+from satcheck.audit.summary import issues_of_input, tool
+from satcheck.audit.words import counted, figure, is_wrong, worst_first
+from satcheck.core import Mesh, Surface
+from satcheck.core.shape_mesh import mesh_of, sag_of
+from satcheck.core.shapes import is_curved
+from satcheck.core.steps import step
+from satcheck.report.colliders import (
+    ColliderLimits,
+    ColliderPart,
+    CollidersReport,
+    Opening,
+    Reach,
+)
+from satcheck.report.report import Report
+from satcheck.report.values import Verdict
+from satcheck.scene import Scene
+from satcheck.scene.units import unit_of
+
+# The width of an interval: as a share of its lower end, or of the size of the link.
+RATIO = 0.01
+FINEST = 1e-5
+# Steps of a search, each about a nanosecond.
+STEPS = 4_000_000_000
+# Points on the circles of curved shapes; more if the sag is more than a share of the figure.
+SEGMENTS = (64, 256)
+SAG_SHARE = 0.005
+VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
+_SPENT = "the steps of the search are spent"
+_HOLES = "what fills the holes of a mesh decides"
+_FACETS = "facets replace curved shapes"
+_NO_END = "a half space has no end"
+
+Member = PlacedBody | UnusableBody
+
+
+class _Kinds(NamedTuple):
+    """Of one link."""
+
+    visuals: list[Member]
+    colliders: list[Member]
+
+
+def compare(
+    visual: Scene,
+    collision: Scene,
+    limits: ColliderLimits,
+    settings: Settings,
+    progress: Progress | None = None,
+) -> tuple[CollidersReport, Report]:
+    """Return how faithful the colliders are, and the check of them at rest. The scenes are those of
+    the same files for both geometries. Raises SatcheckError: `units-unknown`."""
+    for scene in (visual, collision):
+        scene.require_one_unit()
+    parts = _compared(visual, collision, limits, progress)
+    checked = check(collision, settings, least=0)
+    drawn = issues_of_input(visual, settings.accept)
+    new = {(issue.code, issue.file, issue.message) for issue in checked.issues}
+    issues = [i for i in drawn if i.severity != "note" and (i.code, i.file, i.message) not in new]
+    checked = replace(checked, issues=(*checked.issues, *issues))
+    verdicts = {part.verdict for part in parts} | {checked.summary.verdict}
+    if any(issue.state == "blocking" for issue in issues):
+        verdicts.add("incomplete")
+    verdict = min(verdicts, key=VERDICTS.index)
+    report = CollidersReport(
+        tool=tool(),
+        units=visual.units,
+        settings=limits,
+        verdict=verdict,
+        message="",
+        parts=parts,
+        pairs=checked.summary.pairs,
+        overlaps=tuple(worst_first(filter(is_wrong, checked.findings))),
+        issues=checked.issues,
+    )
+    message = " ".join([f"{verdict.upper()}:", *_said(report)])
+    summary = replace(checked.summary, verdict=verdict)
+    return replace(report, message=message), replace(checked, summary=summary, message=message)
+
+
+def _said(report: CollidersReport) -> Iterator[str]:
+    unit = unit_of(report.units)
+    for kind, verb in (("out", "stick out by"), ("short", "fall short by")):
+        reaches = [reach for part in report.parts if (reach := getattr(part, kind)) is not None]
+        if reaches:
+            worst = max(reaches, key=lambda reach: reach.bounds[1])
+            yield f"colliders {verb} {figure(worst.bounds, unit)} at most;"
+    counts = Counter(part.verdict for part in report.parts)
+    for verdict, words in (("fail", "beyond the limits"), ("incomplete", "undecided")):
+        if counts[verdict]:
+            yield f"{counted(counts[verdict], 'link')} {words};"
+    yield f"{counted(len(report.overlaps), 'pair')} of colliders overlapping or undecided."
+
+
+def _compared(
+    visual: Scene, collision: Scene, limits: ColliderLimits, progress: Progress | None
+) -> tuple[ColliderPart, ...]:
+    """What moves together, the worst first."""
+    drawn, solid = (list(_members(place(scene, Settings()))) for scene in (visual, collision))
+    links = [*map(_links, (visual, collision))]
+    grouped = _grouped(zip(drawn, links[0], strict=True), zip(solid, links[1], strict=True))
+    parts = []
+    for number, (name, kinds) in enumerate(grouped.items()):
+        if progress is not None:
+            progress(number, len(grouped))
+        with step(f"comparing {name}, {number + 1} of {len(grouped)}"):
+            parts.append(_part(name, kinds, limits))
+    return tuple(sorted(parts, key=_rank))
+
+
+def _members(bodies: PlacedBodies) -> Iterator[Member]:
+    for index in range(len(bodies.ids)):
+        yield bodies.placed.get(index) or bodies.unusable[index]
+
+
+def _links(scene: Scene) -> list[tuple[int, str] | None]:
+    """The robot and the link of each body, in the order of the scene; None: it is in none."""
+    of_robots = {
+        id_: (number, link)
+        for number, robot in enumerate(scene.robots)
+        for link, ids in robot.by_link().items()
+        for id_ in ids
+    }
+    others = ((body.id, body.link and (-1, body.link)) for body in scene.in_order())
+    return [of_robots.get(id_) or link or None for id_, link in others]
+
+
+Linked = tuple[Member, tuple[int, str] | None]
+
+
+def _grouped(drawn: Iterator[Linked], solid: Iterator[Linked]) -> dict[str, _Kinds]:
+    """What moves together, by name: the bodies of a link. Others are put together by their paths:
+    those below the smallest node that has both kinds below, unless a node in it has, too, and the
+    node itself is no body."""
+    linked: dict[tuple[int, str], _Kinds] = {}
+    loose: dict[str, _Kinds] = {}
+    for kind, members in enumerate((drawn, solid)):
+        for member, link in members:
+            if link is None:
+                loose.setdefault(member.id, _Kinds([], []))[kind].append(member)
+            else:
+                linked.setdefault(link, _Kinds([], []))[kind].append(member)
+    names: dict[str, _Kinds] = {}
+    for (number, link), kinds in linked.items():
+        names[link if link not in names else f"{link} ({number + 1})"] = kinds
+    paths = {path: path.split("/") for path in loose}
+    nodes = {"/".join(words[:k]) for words in paths.values() for k in range(1, len(words) + 1)}
+    closed: set[str] = set()  # nodes with a group below
+    for node in sorted(nodes, key=lambda node: (-node.count("/"), node)):
+        below = [path for path in loose if path == node or path.startswith(f"{node}/")]
+        kinds = _Kinds(*(list(chain(*(loose[p][kind] for p in below))) for kind in (0, 1)))
+        if all(kinds) and (node in loose or node not in closed):
+            names[node] = kinds
+            for path in below:
+                del loose[path]
+        if node in names or node in closed:
+            closed.add(node.rpartition("/")[0])
+    return names | loose
+
+
+def _rank(part: ColliderPart) -> tuple[float, ...]:
+    reaches = [reach.bounds[1] for reach in (part.out, part.short) if reach is not None]
+    return VERDICTS.index(part.verdict), -max(reaches, default=0.0)
+
+
+def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
+    ids = (tuple(member.id for member in own) for own in kinds)
+    part = ColliderPart(name=name, **dict(zip(("visuals", "colliders"), ids, strict=True)))
+    lost = [each for each in chain(*kinds) if isinstance(each, UnusableBody)]
+    if lost:
+        reason = f"{lost[0].id} cannot be used: {lost[0].reason}"
+        return replace(part, verdict="incomplete", reason=reason)
+    visuals, colliders = ([b for b in own if isinstance(b, PlacedBody)] for own in kinds)
+    if not colliders:
+        fails = limits.max_short is not None
+        return replace(part, verdict="fail" if fails else "pass", reason="no collider")
+    if not visuals:
+        is_open = limits.max_out is not None
+        return replace(part, verdict="incomplete" if is_open else "pass", reason="no visual geometry")
+    notes = [
+        f"{what} {body.id} is open: the bounds hold whatever fills its holes"
+        for what, own in (("visual", visuals), ("collider", colliders))
+        for body in own
+        if not body.solid
+    ]
+    out = None if any(b.endless for b in colliders) else _reach(colliders, visuals)
+    short = None if any(b.endless for b in visuals) else _reach(visuals, colliders)
+    part = replace(part, out=out, short=short, notes=tuple(notes))
+    if out is not None and not any(b.endless for b in visuals):
+        part = replace(part, opening=_opening(visuals, colliders, out))
+    return _judged(part, limits)
+
+
+def _judged(part: ColliderPart, limits: ColliderLimits) -> ColliderPart:
+    """Only a proven bound decides."""
+    verdict, reason = "pass", None
+    if part.out is None or part.short is None:
+        reason = _NO_END
+    for reach, limit, name in (
+        (part.out, limits.max_out, "sticks out"),
+        (part.short, limits.max_short, "falls short"),
+    ):
+        if limit is None or (reach is not None and reach.bounds[1] <= limit):
+            continue
+        if reach is not None and reach.bounds[0] > limit:
+            return replace(part, verdict="fail", reason=f"it {name} by more than the limit")
+        verdict = "incomplete"
+        why = _NO_END if reach is None else reach.reason or "the limit is within the bounds"
+        reason = f"it is open whether it {name} by more than the limit: {why}"
+    return replace(part, verdict=verdict, reason=reason)
+
+
+def _opening(
+    visuals: Sequence[PlacedBody], colliders: Sequence[PlacedBody], out: Reach
+) -> Opening | None:
+    """A ball that passes is no wider than the colliders stick out, on both sides of its line."""
+    mesh, sag = _joined(visuals, SEGMENTS[0])
+    low, high = map(np.array, mesh.bounds)
+    if out.bounds[1] < SMALLEST * float(np.linalg.norm(high - low)):
+        return None
+    return largest_opening(mesh, sag, [_surface(b, SEGMENTS[0]) for b in colliders if b.solid])
+
+
+def _reach(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody]) -> Reach:
+    """How far the sources reach out of the union of the targets."""
+    same = {_key(body) for body in targets}
+    others = [body for body in sources if _key(body) not in same]
+    if not others:
+        return Reach(bounds=(0.0, 0.0))
+    for segments in SEGMENTS:
+        reach, sag = _measured(others, targets, segments)
+        if sag <= SAG_SHARE * reach.bounds[0]:
+            break
+    return reach
+
+
+def _measured(
+    sources: Sequence[PlacedBody], targets: Sequence[PlacedBody], segments: int
+) -> tuple[Reach, float]:
+    """The reach, and by how much facets widen its bounds on either side."""
+    mesh, sag = _joined(sources, segments)
+    low, high = map(np.array, mesh.bounds)
+    finest = FINEST * float(np.linalg.norm(high - low))
+    surfaces = [_surface(body, segments) for body in targets]
+    lower, upper, point, narrow = core.union_deviation(mesh, surfaces, finest, RATIO, STEPS)
+    reason = None if narrow else _SPENT
+    if not all(surface.solid for surface in surfaces):
+        filled = list(chain.from_iterable(map(_with_every_fill, surfaces)))
+        lower, _, point, narrow = core.union_deviation(mesh, filled, finest, RATIO, STEPS)
+        reason = reason if lower >= (1 - 2 * RATIO) * upper else _HOLES
+    sag_out = max(_sag(body, segments) for body in targets)
+    widening = sag + sag_out
+    lower, upper = max(lower - widening, 0.0), upper + sag
+    if widening > RATIO * lower:
+        reason = reason or _FACETS
+    if lower == 0.0:
+        return Reach(bounds=(lower, upper), reason=reason), widening
+    own = min(sources, key=lambda body: body.surface().nearest(point)[0])
+    other = min(targets, key=lambda body: body.surface().nearest(point)[0])
+    reach = Reach(
+        bounds=(lower, upper),
+        body=own.id,
+        point=point,
+        nearest_body=other.id,
+        nearest=other.surface().nearest(point)[1],
+        reason=reason,
+    )
+    return reach, widening
+
+
+def _key(body: PlacedBody) -> tuple[object, ...]:
+    """The same for the same geometry in the same place."""
+    own = body.body
+    return own.transform, own.shape or mesh_key(own.file, is_open=own.open)
+
+
+def _sag(body: PlacedBody, segments: int) -> float:
+    shape = body.body.shape
+    return sag_of(shape, segments) * body.largest_stretch if is_curved(shape) else 0.0
+
+
+def _surface(body: PlacedBody, segments: int) -> Surface:
+    """In the world."""
+    if not is_curved(body.body.shape):
+        return body.surface()
+    return Surface(_mesh(body, segments), True)
+
+
+def _mesh(body: PlacedBody, segments: int) -> Mesh:
+    shape, transform = body.body.shape, body.body.transform
+    if not is_curved(shape):
+        return body.mesh
+    mesh = mesh_of(shape, segments)
+    return mesh if transform is None else mesh.transformed(transform)
+
+
+def _joined(bodies: Sequence[PlacedBody], segments: int) -> tuple[Mesh, float]:
+    """One mesh of all, and how far the true surface may be off it."""
+    meshes = [_mesh(body, segments) for body in bodies]
+    starts = np.cumsum([0, *(mesh.vertex_count for mesh in meshes)]).astype(np.uint32)
+    triangles = [np.asarray(m.triangles) + s for m, s in zip(meshes, starts, strict=False)]
+    mesh = Mesh(np.concatenate([np.asarray(m.vertices) for m in meshes]), np.concatenate(triangles))
+    return mesh, max(_sag(body, segments) for body in bodies)
+
+
+def _with_every_fill(surface: Surface) -> list[Surface]:
+    """Solids that contain the mesh, whatever fills its holes."""
+    if surface.solid:
+        return [surface]
+    closed, hulls = surface.closed()
+    return [closed, *hulls]
