@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import chain
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +23,7 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies, UnusableBody, place
-from satcheck.audit.body import PlacedBody, mesh_key
+from satcheck.audit.body import PlacedBody, largest_coordinate, mesh_key
 from satcheck.audit.check import check
 from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.openings import SMALLEST, largest_opening
@@ -30,8 +31,9 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.summary import issues_of_input, tool
 from satcheck.audit.words import counted, figure, is_wrong, worst_first
 from satcheck.core import Mesh, Surface
+from satcheck.core.rounding import rounding_pad
 from satcheck.core.shape_mesh import mesh_of, sag_of
-from satcheck.core.shapes import is_curved
+from satcheck.core.shapes import is_curved, support
 from satcheck.core.steps import step
 from satcheck.report.colliders import (
     ColliderLimits,
@@ -43,6 +45,7 @@ from satcheck.report.colliders import (
 from satcheck.report.report import Report
 from satcheck.report.values import Verdict
 from satcheck.scene import Scene
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.units import unit_of
 
 # The width of an interval: as a share of its lower end, or of the size of the link.
@@ -50,9 +53,10 @@ RATIO = 0.01
 FINEST = 1e-5
 # Steps of a search, each about a nanosecond.
 STEPS = 4_000_000_000
-# Points on the circles of curved shapes; more if the sag is more than a share of the figure.
+# Points on the circles of curved shapes; more if their sag makes the interval wide.
 SEGMENTS = (64, 256)
-SAG_SHARE = 0.005
+# A curved shape that sticks out of a convex mesh by less, of its size, only rounds off it.
+ROUNDED = 1e-12
 VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
 _SPENT = "the steps of the search are spent"
 _HOLES = "what fills the holes of a mesh decides"
@@ -253,47 +257,90 @@ def _reach(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody]) -> Reac
     """How far the sources reach out of the union of the targets."""
     same = {_key(body) for body in targets}
     others = [body for body in sources if _key(body) not in same]
-    if not others:
-        return Reach(bounds=(0.0, 0.0))
-    for segments in SEGMENTS:
-        reach, sag = _measured(others, targets, segments)
-        if sag <= SAG_SHARE * reach.bounds[0]:
+    curved = any(is_curved(body.body.shape) for body in (*others, *targets))
+    reach = Reach(bounds=(0.0, 0.0))
+    for segments in SEGMENTS if curved else SEGMENTS[-1:]:
+        surfaces = [_surface(body, segments) for body in targets]
+        rest, rounded = [], 0.0
+        for body in others:
+            excess = min((_excess(body, surface) for surface in surfaces), default=inf)
+            if excess > ROUNDED * body.diagonal:
+                rest.append(body)
+            else:
+                rounded = max(rounded, excess)
+        reach = _measured(rest, targets, surfaces, segments) if rest else reach
+        reach = replace(reach, bounds=(reach.bounds[0], max(reach.bounds[1], rounded)))
+        if reach.reason != _FACETS:
             break
     return reach
 
 
 def _measured(
-    sources: Sequence[PlacedBody], targets: Sequence[PlacedBody], segments: int
-) -> tuple[Reach, float]:
-    """The reach, and by how much facets widen its bounds on either side."""
+    sources: Sequence[PlacedBody],
+    targets: Sequence[PlacedBody],
+    surfaces: Sequence[Surface],
+    segments: int,
+) -> Reach:
+    """surfaces: of the targets."""
     mesh, sag = _joined(sources, segments)
     low, high = map(np.array, mesh.bounds)
     finest = FINEST * float(np.linalg.norm(high - low))
-    surfaces = [_surface(body, segments) for body in targets]
     lower, upper, point, narrow = core.union_deviation(mesh, surfaces, finest, RATIO, STEPS)
     reason = None if narrow else _SPENT
     if not all(surface.solid for surface in surfaces):
         filled = list(chain.from_iterable(map(_with_every_fill, surfaces)))
         lower, _, point, narrow = core.union_deviation(mesh, filled, finest, RATIO, STEPS)
-        reason = reason if lower >= (1 - 2 * RATIO) * upper else _HOLES
-    sag_out = max(_sag(body, segments) for body in targets)
-    widening = sag + sag_out
-    lower, upper = max(lower - widening, 0.0), upper + sag
-    if widening > RATIO * lower:
+        reason = reason if lower >= (1 - 2 * RATIO) * upper - finest else _HOLES
+    widening = sag + max(_sag(body, segments) for body in targets)
+    if widening > RATIO / 2 * lower:
         reason = reason or _FACETS
-    if lower == 0.0:
-        return Reach(bounds=(lower, upper), reason=reason), widening
+    bounds = max(lower - widening, 0.0), upper + sag
+    if bounds[0] == 0.0:
+        return Reach(bounds=bounds, reason=reason)
     own = min(sources, key=lambda body: body.surface().nearest(point)[0])
     other = min(targets, key=lambda body: body.surface().nearest(point)[0])
-    reach = Reach(
-        bounds=(lower, upper),
+    return Reach(
+        bounds=bounds,
         body=own.id,
         point=point,
         nearest_body=other.id,
         nearest=other.surface().nearest(point)[1],
         reason=reason,
     )
-    return reach, widening
+
+
+def _excess(body: PlacedBody, surface: Surface) -> float:
+    """No point of a curved shape is farther from a convex mesh; infinite for others.
+
+    The shape lies below the planes of the faces, each lifted by the largest amount by which it
+    sticks out of one. So it lies in the mesh, scaled about an inner point that is deeper than the
+    least depth below all planes.
+    """
+    shape, mesh = body.body.shape, surface.mesh
+    rounding = rounding_pad(max(largest_coordinate(body.bounds), mesh.largest_coordinate))
+    if not is_curved(shape) or not surface.solid:
+        return inf
+    defect = mesh.convexity_defect(rounding)
+    matrix = np.reshape(body.body.transform or IDENTITY, (4, 4))
+    points = np.asarray(mesh.vertices)
+    a, b, c = np.moveaxis(points[np.asarray(mesh.triangles)], 1, 0)
+    normals = np.cross(b - a, c - a)
+    sides = np.linalg.norm([b - a, c - b, a - c], axis=2).max(axis=0)
+    lengths = np.linalg.norm(normals, axis=1)
+    thinnest = float((lengths / sides).min())
+    if defect == inf or thinnest == 0.0:
+        return inf
+    normals /= lengths[:, None]
+    offsets = np.einsum("ij,ij->i", normals, a)
+    reaches = [support(shape, tuple(way)) for way in (normals @ matrix[:3, :3]).tolist()]
+    low, high = map(np.array, mesh.bounds)
+    size = float(np.linalg.norm(high - low))
+    rounding *= 1 + size / thinnest  # a thin triangle has an uncertain normal
+    excess = float((reaches + normals @ matrix[:3, 3] - offsets).max()) + rounding
+    depth = float((offsets - normals @ points.mean(axis=0)).min()) - rounding
+    if excess <= 0.0:
+        return 0.0
+    return defect + excess / depth * size if depth > 0.0 else inf
 
 
 def _key(body: PlacedBody) -> tuple[object, ...]:

@@ -3,7 +3,7 @@
 //   max_i |v_i - T|   T the triangle nearest to c: the distance to a convex set is convex
 //   s(c) + r          s is 1-Lipschitz
 // If c is inside, no point of the piece is farther outside than r - s(c); if it is outside, none is deeper inside. The
-// distance to a convex solid is largest at a corner.
+// distance to a convex solid is largest at a corner, and to a nearly convex one larger by its defect at most.
 #include "mesh_pair/reach.hpp"
 
 #include <algorithm>
@@ -25,6 +25,9 @@ constexpr std::size_t kMostPieces = 2'000'000;
 
 // Roundings of a distance, in units of the largest coordinate.
 constexpr double kDistanceError = 32 * std::numeric_limits<double>::epsilon();
+
+// The defect of a mesh that counts as convex, in units of its largest coordinate.
+constexpr double kConvex = 1e-13;
 
 // How far a piece is pushed inwards, as a share of the bound that is wanted.
 constexpr double kPush = 0.99;
@@ -62,15 +65,19 @@ std::array<Corners, 2> halves(const Corners& c) {
   return {Corners{p, middle, apex}, Corners{middle, q, apex}};
 }
 
-// A member of the union. convex: by exact signs.
+// A member of the union. defect: no point of its hull is farther from it; infinite if it is not nearly convex. The rounding
+// of a placement bends the faces of a convex mesh.
 struct Member {
   const Surface& surface;
-  bool convex;
+  double defect;
 };
 
 std::vector<Member> members_of(const std::vector<const Surface*>& solids) {
   std::vector<Member> members;
-  for (const Surface* each : solids) members.push_back({*each, each->solid && convexity_defect(each->mesh, 0) == 0});
+  for (const Surface* each : solids) {
+    const double most = kConvex * each->bvh.nodes[0].box.largest_coordinate();
+    members.push_back({*each, each->solid ? convexity_defect(each->mesh, most) : INFINITY});
+  }
   return members;
 }
 
@@ -143,7 +150,7 @@ class Outside {
     for (const Vec3& v : c) {
       if (distance_to(surface, v) >= limit) return limit;
     }
-    if (member.convex) return farthest_corner(c, surface);
+    if (std::isfinite(member.defect)) return farthest_corner(c, surface) + member.defect;
     const Piece piece = measured(c, surface, budget_);
     double upper = piece.farthest;
     if (!(upper > enough())) return upper;
