@@ -39,6 +39,7 @@ from satcheck.report.colliders import (
     ColliderLimits,
     ColliderPart,
     CollidersReport,
+    Farthest,
     Opening,
     Reach,
 )
@@ -117,7 +118,7 @@ def _said(report: CollidersReport) -> Iterator[str]:
         if reaches:
             worst = max(reaches, key=lambda reach: reach.bounds[1])
             yield f"colliders {verb} {figure(worst.bounds, unit)} at most;"
-    counts = Counter(part.verdict for part in report.parts)
+    counts: Counter[str] = Counter(part.verdict for part in report.parts)
     for verdict, words in (("fail", "beyond the limits"), ("incomplete", "undecided")):
         if counts[verdict]:
             yield f"{counted(counts[verdict], 'link')} {words};"
@@ -173,8 +174,8 @@ def _grouped(drawn: Iterator[Linked], solid: Iterator[Linked]) -> dict[str, _Kin
             else:
                 linked.setdefault(link, _Kinds([], []))[kind].append(member)
     names: dict[str, _Kinds] = {}
-    for (number, link), kinds in linked.items():
-        names[link if link not in names else f"{link} ({number + 1})"] = kinds
+    for (number, name), kinds in linked.items():
+        names[name if name not in names else f"{name} ({number + 1})"] = kinds
     paths = {path: path.split("/") for path in loose}
     nodes = {"/".join(words[:k]) for words in paths.values() for k in range(1, len(words) + 1)}
     closed: set[str] = set()  # nodes with a group below
@@ -196,8 +197,8 @@ def _rank(part: ColliderPart) -> tuple[float, ...]:
 
 
 def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
-    ids = (tuple(member.id for member in own) for own in kinds)
-    part = ColliderPart(name=name, **dict(zip(("visuals", "colliders"), ids, strict=True)))
+    drawn, solid = (tuple(member.id for member in own) for own in kinds)
+    part = ColliderPart(name=name, visuals=drawn, colliders=solid)
     lost = [each for each in chain(*kinds) if isinstance(each, UnusableBody)]
     if lost:
         reason = f"{lost[0].id} cannot be used: {lost[0].reason}"
@@ -208,7 +209,9 @@ def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
         return replace(part, verdict="fail" if fails else "pass", reason="no collider")
     if not visuals:
         is_open = limits.max_out is not None
-        return replace(part, verdict="incomplete" if is_open else "pass", reason="no visual geometry")
+        return replace(
+            part, verdict="incomplete" if is_open else "pass", reason="no visual geometry"
+        )
     notes = [
         f"{what} {body.id} is open: the bounds hold whatever fills its holes"
         for what, own in (("visual", visuals), ("collider", colliders))
@@ -225,7 +228,8 @@ def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
 
 def _judged(part: ColliderPart, limits: ColliderLimits) -> ColliderPart:
     """Only a proven bound decides."""
-    verdict, reason = "pass", None
+    verdict: Verdict = "pass"
+    reason = None
     if part.out is None or part.short is None:
         reason = _NO_END
     for reach, limit, name in (
@@ -299,14 +303,8 @@ def _measured(
         return Reach(bounds=bounds, reason=reason)
     own = min(sources, key=lambda body: body.surface().nearest(point)[0])
     other = min(targets, key=lambda body: body.surface().nearest(point)[0])
-    return Reach(
-        bounds=bounds,
-        body=own.id,
-        point=point,
-        nearest_body=other.id,
-        nearest=other.surface().nearest(point)[1],
-        reason=reason,
-    )
+    farthest = Farthest(own.id, point, other.id, other.surface().nearest(point)[1])
+    return Reach(bounds=bounds, farthest=farthest, reason=reason)
 
 
 def _excess(body: PlacedBody, surface: Surface) -> float:

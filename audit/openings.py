@@ -32,8 +32,8 @@ _RADII, _LESS = 6, 0.9
 _MOST_DIRECTIONS = 12
 _TRIANGLES = 2_000_000
 _ALIKE = 0.999  # the cosine of directions that are not told apart
-# The step of a square grid of lines, as a share of the radius. A ball of radius r holds a point of a
-# square grid of step r sqrt(2).
+# The step of a square grid of lines, as a share of the radius. A disc of radius r holds a point of a
+# grid whose step is r sqrt(2).
 _FINE = 0.07
 # Of the size of the mesh: the smallest ball, and more than all rounding.
 SMALLEST = 5e-3
@@ -58,8 +58,8 @@ def largest_opening(mesh: Mesh, sag: float, colliders: Sequence[Surface]) -> Ope
 
 
 class _View:
-    """All of it, as seen along a direction. corners: of the hull of the mesh. spare: of the distance from the mesh. rounded: more
-    than all rounding."""
+    """All of it, as seen along a direction. corners: of the hull of the mesh. spare: of the
+    distance from the mesh. rounded: more than all rounding."""
 
     def __init__(
         self,
@@ -167,7 +167,7 @@ def _hull(points: Floats) -> list[tuple[Floats, Floats]]:
     for some in (order, order[::-1]):
         chain: list[Floats] = []
         for point in some:
-            while len(chain) > 1 and _turn(*chain[-2:], point) <= 0:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0:
                 chain.pop()
             chain.append(point)
         chains += chain[:-1]

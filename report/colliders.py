@@ -7,21 +7,29 @@ from typing import Literal
 from satcheck.report.report import Finding, Issue, PairCounts
 from satcheck.report.values import Interval, Length, Tool, Value, Vector, Verdict
 
+# The rules of findings about colliders, for formats that list findings about two bodies.
+STICKS_OUT, FALLS_SHORT = OF_COLLIDERS = ("collider-out", "collider-short")
+
+
+class Farthest(Value, frozen=True):
+    """A point of the surface of a body, and the nearest one of the other geometry."""
+
+    body: str
+    point: Vector
+    nearest_body: str
+    nearest: Vector
+
 
 class Reach(Value, frozen=True, kw_only=True):
     """How far one geometry reaches out of the other: the largest distance of a point of its surface
     from the other one, which is 0 inside.
 
-    bounds: contain it. body: whose surface has the point, in the world, that is at least the lower
-    bound away. nearest_body, nearest: of the other geometry. These are None where the bounds are 0.
+    bounds: contain it. farthest: the point is at least the lower bound away; None: that is 0.
     reason: why the interval is wide; None: it is narrow.
     """
 
     bounds: Interval
-    body: str | None = None
-    point: Vector | None = None
-    nearest_body: str | None = None
-    nearest: Vector | None = None
+    farthest: Farthest | None = None
     reason: str | None = None
 
 

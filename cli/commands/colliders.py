@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -12,16 +13,21 @@ from msgspec.structs import replace
 from satcheck.audit.colliders import compare
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
-from satcheck.cli.format_option import deliver, form_option, plain_call
-from satcheck.cli.formats.colliders import render
-from satcheck.cli.inputs import Inputs
+from satcheck.cli.format_option import FormatChoice, format_option, targets_of
+from satcheck.cli.formats.colliders import as_report, render
+from satcheck.cli.formats.registry import ALL, kind_of, pieces
+from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.option import in_units_of, length, settings_of
-from satcheck.cli.output import tell_issues
+from satcheck.cli.output import Document, Page, tell_issues
 from satcheck.cli.progress import Bar
-from satcheck.report.colliders import ColliderLimits
+from satcheck.report.colliders import ColliderLimits, CollidersReport
+from satcheck.report.json import document as json_document
+from satcheck.report.report import Report
 from satcheck.scene import Scene
 from satcheck.scene.files.readers import GEOMETRY, GeometryKind
 from satcheck.scene.units import Length
+
+FORMATS = FormatChoice(ALL)
 
 
 @click.command("colliders", cls=Command, context_settings=HELP_NAMES)
@@ -36,8 +42,8 @@ from satcheck.scene.units import Length
     type=length,
     help="Fail if visual geometry sticks out of the colliders by more than this.",
 )
-@form_option
-@option.output
+@format_option(FORMATS)
+@option.outputs("Write the report to FILE, in the format that its name ends with. Repeatable.")
 @option.top
 @option.accept
 @scene_option.rules
@@ -47,7 +53,7 @@ from satcheck.scene.units import Length
 @option.common
 def command(
     form: str | None,
-    output: Path | None,
+    outputs: tuple[Path, ...],
     top: int | None,
     max_out: Length | None,
     max_short: Length | None,
@@ -62,7 +68,9 @@ def command(
     Exit codes: 0, colliders keep the limits, and none overlap; 1, some do not; 2, wrong usage, an
     unreadable input, or an internal error; 3, that is open.
     """
-    inputs, form, document = plain_call(options, form, output)
+    inputs, targets = Inputs.taken_from(options), targets_of(form, outputs, FORMATS)
+    refuse_early(inputs, outputs)
+    document = Document()
     visual, collision = (_loaded(inputs, kind) for kind in ("visual", "collision"))
     tell_issues(dict.fromkeys(i for i in collision.issues if i.severity == "error"))
     limits = ColliderLimits(
@@ -71,8 +79,31 @@ def command(
     )
     with Bar("links", "comparing") as bar:
         report, checked = compare(visual, collision, limits, settings_of(options, visual), bar)
-    deliver(document, report, form, output, partial(render, report, checked, top=top))
+    scenes = visual, collision
+    for name, output in targets:
+        shown = partial(_rendered, name, report, checked, scenes, top)
+        document.deliver(shown, output, utf8=name != "table")
     return exit_codes.for_verdict(report.verdict, report.issues)
+
+
+def _rendered(
+    form: str,
+    report: CollidersReport,
+    checked: Report,
+    scenes: tuple[Scene, Scene],
+    top: int | None,
+    page: Page,
+) -> str | bytes | Iterable[str]:
+    if form == "json":
+        return json_document(report)
+    if form == "table":
+        return render(report, checked, page, top=top)
+    listed, scene = as_report(report, checked, *scenes)
+    if kind_of(form) == "reports":
+        return pieces({"satcheck": listed}, form)
+    from satcheck.cli.formats.picture import render as render_picture
+
+    return render_picture(form, listed, scene)
 
 
 def _loaded(inputs: Inputs, kind: GeometryKind) -> Scene:

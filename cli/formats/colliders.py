@@ -1,10 +1,24 @@
-"""What `satcheck colliders` has found, as a table: a row for each link, the worst first."""
+"""What `satcheck colliders` has found: a table with a row for each link, the worst first; and the
+report of a check, for the other formats."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.words import at_least, counted, interval, vector, with_unit
+from msgspec.structs import replace
+
+from satcheck.audit.bodies import place
+from satcheck.audit.settings import Settings
+from satcheck.audit.summary import body_reports
+from satcheck.audit.words import (
+    at_least,
+    counted,
+    figure,
+    interval,
+    stated,
+    vector,
+    with_unit,
+)
 from satcheck.cli.formats.summary import MESHES
 from satcheck.cli.formats.table import columns_of
 from satcheck.cli.formats.tables import (
@@ -17,14 +31,17 @@ from satcheck.cli.formats.tables import (
     table,
 )
 from satcheck.cli.output import issue_line
+from satcheck.report.colliders import FALLS_SHORT, STICKS_OUT
+from satcheck.report.report import Finding, Witness, finding_id
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from satcheck.cli.output import Page
-    from satcheck.report.colliders import ColliderPart, CollidersReport, Reach
+    from satcheck.report.colliders import ColliderPart, CollidersReport, Farthest, Reach
     from satcheck.report.report import Report
+    from satcheck.scene import Scene
 
 # Links whose places are told.
 _TOLD = 3
@@ -58,7 +75,9 @@ def render(report: CollidersReport, checked: Report, page: Page, *, top: int | N
     said = [f"note: {part.name}: {note}" for part in shown for note in part.notes]
     told = (i for i in report.issues if i.severity == "warning" and i.code not in MESHES)
     said += map(issue_line, told)
-    summary = f"{counted(len(report.parts), 'link')}, {counted(report.pairs.total, 'pair')} of colliders."
+    summary = (
+        f"{counted(len(report.parts), 'link')}, {counted(report.pairs.total, 'pair')} of colliders."
+    )
     return joined([*lines, *fitted_each([*said, summary, report.message], page)], page)
 
 
@@ -75,9 +94,9 @@ def _opening(part: ColliderPart) -> str:
 def _places(part: ColliderPart, unit: str | None) -> Iterator[str]:
     """Yield `link5: sticks out at (1, 0, 0); closes 88 mm at (0, 0, 0), along (1, 0, 0)`."""
     said = [
-        f"{verb} at {vector(reach.point)}"
+        f"{verb} at {vector(reach.farthest.point)}"
         for verb, reach in (("sticks out", part.out), ("falls short", part.short))
-        if reach is not None and reach.point is not None
+        if reach is not None and reach.farthest is not None
     ]
     if (opening := part.opening) is not None:
         wide = with_unit(at_least(opening.diameter), unit)
@@ -85,3 +104,80 @@ def _places(part: ColliderPart, unit: str | None) -> Iterator[str]:
         said.append(f"closes an opening {wide} wide at {vector(opening.point)}, along {way}")
     if said:
         yield f"{part.name}: {'; '.join(said)}"
+
+
+def as_report(
+    report: CollidersReport, checked: Report, visual: Scene, collision: Scene
+) -> tuple[Report, Scene]:
+    """Return the check of the colliders with a finding for each figure about a link, and the scene
+    of the colliders and of what is drawn."""
+    names = {body.id: f"{body.id} (visual)" for body in visual.in_order()}
+    drawn = [replace(body, id=names[body.id], name=names[body.id]) for body in visual.bodies]
+    both = replace(collision, bodies=(*collision.bodies, *drawn))
+    placed = place(replace(visual, bodies=tuple(drawn), order=tuple(names.values())), Settings())
+    findings = [*checked.findings]
+    for part in report.parts:
+        for rule, reach, most in (
+            (STICKS_OUT, part.out, report.settings.max_out),
+            (FALLS_SHORT, part.short, report.settings.max_short),
+        ):
+            if reach is not None and reach.farthest is not None:
+                told = _told(part.name, rule, reach.bounds, most, unit_of(report.units))
+                findings.append(_finding(rule, reach, reach.farthest, most, names, told))
+        if part.out is None and part.verdict != "pass":
+            findings.append(_of_nothing(part, names))
+    bodies = (*checked.bodies, *body_reports(placed))
+    return replace(checked, bodies=bodies, findings=tuple(findings)), both
+
+
+def _told(
+    name: str, rule: str, bounds: tuple[float, float], most: float | None, unit: str | None
+) -> str:
+    verb = "a collider sticks out" if rule == STICKS_OUT else "the colliders fall short"
+    limit = "" if most is None else f" (limit {with_unit(stated(most), unit)})"
+    return f"{name}: {verb} by {figure(bounds, unit)}{limit}"
+
+
+def _finding(
+    rule: str,
+    reach: Reach,
+    farthest: Farthest,
+    most: float | None,
+    names: Mapping[str, str],
+    told: str,
+) -> Finding:
+    """most: the limit. names: of the drawn bodies."""
+    low, high = reach.bounds
+    a, b = farthest.body, farthest.nearest_body
+    a, b = (a, names[b]) if rule == STICKS_OUT else (names[a], b)
+    is_open = most is not None and low <= most < high
+    return Finding(
+        id=finding_id(f"{rule} {a}", b),
+        a=a,
+        b=b,
+        rule=rule,
+        severity="note" if most is None or high <= most else "warning" if is_open else "error",
+        message=f"{told} at {vector(farthest.point)}.",
+        undecided="limit" if is_open else None,
+        relation="separated",
+        distance=low,
+        witness=Witness(farthest.point, farthest.nearest),
+        reason=reach.reason,
+        plan=(),
+    )
+
+
+def _of_nothing(part: ColliderPart, names: Mapping[str, str]) -> Finding:
+    """For a link of which one geometry is missing or cannot be used."""
+    body = part.colliders[0] if part.colliders else names[part.visuals[0]]
+    return Finding(
+        id=finding_id(body, body),
+        a=body,
+        b=body,
+        rule=STICKS_OUT if part.colliders else FALLS_SHORT,
+        severity="error" if part.verdict == "fail" else "warning",
+        message=f"{part.name}: {part.reason}.",
+        undecided=None if part.verdict == "fail" else "limit",
+        relation="separated",
+        plan=(),
+    )

@@ -48,7 +48,9 @@ def sphere(radius: float, at: Place = HERE) -> Shape:
     return Shape("sphere", (radius,), at)
 
 
-def mesh(points: Sequence[Sequence[float]], faces: Sequence[Sequence[int]], at: Place = HERE) -> Shape:
+def mesh(
+    points: Sequence[Sequence[float]], faces: Sequence[Sequence[int]], at: Place = HERE
+) -> Shape:
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in np.asarray(points, float).tolist()]
     lines += ["f " + " ".join(str(k + 1) for k in face) for face in faces]
     return Shape("mesh", ("\n".join(lines) + "\n",), at)
@@ -73,7 +75,9 @@ def hull_of_bracket(long: float, thick: float, height: float) -> Shape:
     return prism([(0, 0), (long, 0), (long, thick), (thick, long), (0, long)], height)
 
 
-def corners(size: Sequence[float], inward: bool = False) -> tuple[list[Place], list[tuple[int, ...]]]:
+def corners(
+    size: Sequence[float], inward: bool = False
+) -> tuple[list[Place], list[tuple[int, ...]]]:
     x, y, z = (s / 2 for s in size)
     points = [(i * x, j * y, k * z) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)]
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -148,9 +152,7 @@ CASES = {
     # Facets replace both of two curved shapes that touch.
     "cylinder around sphere": Case([sphere(1)], [cylinder(1, 2)], ROOT2 - 1, 0, nothing=2e-4),
     "sphere around box": Case([box(2, 2, 2)], [sphere(math.sqrt(3))], math.sqrt(3) - 1, 0),
-    "hull of a bracket": Case(
-        [bracket(3, 1, 1)], [hull_of_bracket(3, 1, 1)], 1, 0, 2 * NOTCH
-    ),
+    "hull of a bracket": Case([bracket(3, 1, 1)], [hull_of_bracket(3, 1, 1)], 1, 0, 2 * NOTCH),
     "hull of a thin bracket": Case(
         [bracket(1, 0.1, 0.5)], [hull_of_bracket(1, 0.1, 0.5)], 0.45, 0, 0.9 * NOTCH
     ),
@@ -158,9 +160,7 @@ CASES = {
     "both legs of a bracket": Case(
         [bracket(3, 1, 1)], [box(3, 1, 1, (1.5, 0.5, 0.5)), box(1, 2, 1, (0.5, 2, 0.5))], 0, 0
     ),
-    "shifted bracket": Case(
-        [bracket(3, 1, 1)], [bracket(3, 1, 1, (0.03, 0.04, 0))], 0.05, 0.05
-    ),
+    "shifted bracket": Case([bracket(3, 1, 1)], [bracket(3, 1, 1, (0.03, 0.04, 0))], 0.05, 0.05),
     "lifted bracket": Case([bracket(3, 1, 1)], [bracket(3, 1, 1, (0, 0, 0.25))], 0.25, 0.25),
     "same box": Case([box(1, 2, 3)], [box(1, 2, 3)], 0, 0),
     "same sphere": Case([sphere(1)], [sphere(1)], 0, 0),
@@ -217,7 +217,8 @@ def urdf(folder: Path, case: Case) -> Path:
 
 
 def joint(child: str) -> str:
-    return f'<joint name="to {child}" type="fixed"><parent link="part"/><child link="{child}"/></joint>'
+    ends = f'<parent link="part"/><child link="{child}"/>'
+    return f'<joint name="to {child}" type="fixed">{ends}</joint>'
 
 
 def sdf(folder: Path, case: Case) -> Path:
@@ -415,11 +416,13 @@ def test_the_same_geometry_is_exactly_nothing_apart(name: str, tmp_path: Path) -
 
 def test_points_are_where_the_lower_bounds_are_attained(tmp_path: Path) -> None:
     part = only_part(urdf(tmp_path, CASES["hull of a bracket"]))
-    x, y, z = part.out.point
+    x, y, z = part.out.farthest.point
     assert min(x, y) - 1 >= part.out.bounds[0] - 1e-12  # beyond both legs
     assert 0 <= z <= 1
     assert x + y <= 4 + 1e-12  # of the hull
-    assert math.dist(part.out.point, part.out.nearest) >= part.out.bounds[0] - 1e-12
+    assert (
+        math.dist(part.out.farthest.point, part.out.farthest.nearest) >= part.out.bounds[0] - 1e-12
+    )
 
 
 def test_the_point_of_a_door_is_on_its_way(tmp_path: Path) -> None:
@@ -503,7 +506,8 @@ def outside(mesh: trimesh.Trimesh, points: np.ndarray) -> np.ndarray:
         x, y, z = (np.linalg.norm(side, axis=1) for side in (a, b, c))
         above = np.einsum("ij,ij->i", a, np.cross(b, c))
         below = x * y * z + sum(
-            np.einsum("ij,ij->i", p, q) * length for p, q, length in ((a, b, z), (b, c, x), (c, a, y))
+            np.einsum("ij,ij->i", p, q) * length
+            for p, q, length in ((a, b, z), (b, c, x), (c, a, y))
         )
         around = np.arctan2(above, below).sum() / (2 * np.pi)
         inside = abs(around) > 0.5
