@@ -117,7 +117,7 @@ def _said(report: CollidersReport) -> Iterator[str]:
         reaches = [reach for part in report.parts if (reach := getattr(part, kind)) is not None]
         if reaches:
             worst = max(reaches, key=lambda reach: reach.bounds[1])
-            yield f"colliders {verb} {figure(worst.bounds, unit)} at most;"
+            yield f"colliders {verb} {figure(worst.bounds, unit)} where they are worst;"
     counts: Counter[str] = Counter(part.verdict for part in report.parts)
     for verdict, words in (("fail", "beyond the limits"), ("incomplete", "undecided")):
         if counts[verdict]:

@@ -32,8 +32,8 @@ _RADII, _LESS = 6, 0.9
 _MOST_DIRECTIONS = 12
 _TRIANGLES = 2_000_000
 _ALIKE = 0.999  # the cosine of directions that are not told apart
-# The step of a square grid of lines, as a share of the radius. A disc of radius r holds a point of a
-# grid whose step is r sqrt(2).
+# The step of a square grid of lines, as a share of the radius. A disc of radius r holds a point of
+# a grid whose step is r sqrt(2).
 _FINE = 0.07
 # Of the size of the mesh: the smallest ball, and more than all rounding.
 SMALLEST = 5e-3

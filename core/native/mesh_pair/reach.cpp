@@ -29,7 +29,7 @@ constexpr double kDistanceError = 32 * std::numeric_limits<double>::epsilon();
 // The defect of a mesh that counts as convex, in units of its largest coordinate.
 constexpr double kConvex = 1e-13;
 
-// How far a piece is pushed inwards, as a share of the bound that is wanted.
+// How far a piece is pushed inwards, as a share of a bound that is wanted: room for rounding.
 constexpr double kPush = 0.99;
 
 struct Piece {
@@ -156,9 +156,11 @@ class Outside {
     if (!(upper > enough())) return upper;
     const bool inside = is_inside(surface, piece.centre, budget_);
     if (inside) upper = std::fmin(upper, std::fmax(0.0, piece.radius - piece.distance));
-    if (surface.solid && (inside || piece.distance <= enough())) {
+    if (!surface.solid) return upper;
+    for (const double length : {enough(), upper / 4}) {
       for (const Corners& face : {corners(surface.mesh, piece.nearest), c}) {
-        if (upper > enough()) upper = std::fmin(upper, pushed(c, piece.centre, face, surface));
+        const bool may = length < upper && (inside || piece.distance <= length);
+        if (may) upper = std::fmin(upper, pushed(c, piece.centre, face, surface, kPush * length));
       }
     }
     return upper;
@@ -173,15 +175,15 @@ class Outside {
     return farthest;
   }
 
-  // Moves the corners inwards, behind the face and towards the centre. If the moved piece is inside, no point of the piece
+  // Moves the corners inwards by the length, behind the face and towards the centre. If the moved piece is inside, no point of the piece
   // is farther out than the longest move. So a face that lies in a face is settled at once.
-  double pushed(const Corners& c, Vec3 centre, const Corners& face, const Surface& surface) {
+  double pushed(const Corners& c, Vec3 centre, const Corners& face, const Surface& surface, double length) {
     const Vec3 out = unit_of(cross(face[1] - face[0], face[2] - face[0]));
     Corners moved = c;
     double longest = 0;
     for (int i = 0; i < 3; ++i) {
       const Vec3 way = unit_of(centre - c[i]) - out;
-      moved[i] = c[i] + unit_of(way) * (kPush * enough());
+      moved[i] = c[i] + unit_of(way) * length;
       longest = std::fmax(longest, norm(moved[i] - c[i]));
     }
     const bool apart = visit_box(surface.bvh, surface.mesh, bounds_of(moved), [&](std::uint32_t t) {
