@@ -13,9 +13,8 @@ its surface alone.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
-from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +22,7 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies, UnusableBody, place
-from satcheck.audit.body import PlacedBody, largest_coordinate, mesh_key
+from satcheck.audit.body import PlacedBody, mesh_key
 from satcheck.audit.check import check
 from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.openings import SMALLEST, largest_opening
@@ -31,9 +30,9 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.summary import issues_of_input, tool
 from satcheck.audit.words import counted, figure, is_wrong, worst_first
 from satcheck.core import Mesh, Surface
-from satcheck.core.rounding import rounding_pad
+from satcheck.core.errors import SatcheckError
 from satcheck.core.shape_mesh import mesh_of, sag_of
-from satcheck.core.shapes import is_curved, support
+from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step
 from satcheck.report.colliders import (
     ColliderLimits,
@@ -46,7 +45,6 @@ from satcheck.report.colliders import (
 from satcheck.report.report import Report
 from satcheck.report.values import Verdict
 from satcheck.scene import Scene
-from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.units import unit_of
 
 # The width of an interval: as a share of its lower end, or of the size of the link.
@@ -55,9 +53,7 @@ FINEST = 1e-5
 # Steps of a search, each about a nanosecond.
 STEPS = 4_000_000_000
 # Points on the circles of curved shapes; more if their sag makes the interval wide.
-SEGMENTS = (64, 256)
-# A curved shape that sticks out of a convex mesh by less, of its size, only rounds off it.
-ROUNDED = 1e-12
+SEGMENTS = (64, 128, 256)
 VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
 _SPENT = "the steps of the search are spent"
 _HOLES = "what fills the holes of a mesh decides"
@@ -82,9 +78,12 @@ def compare(
     progress: Progress | None = None,
 ) -> tuple[CollidersReport, Report]:
     """Return how faithful the colliders are, and the check of them at rest. The scenes are those of
-    the same files for both geometries. Raises SatcheckError: `units-unknown`."""
+    the same files for both geometries. Raises SatcheckError: `units-unknown`, and for several
+    robots."""
     for scene in (visual, collision):
         scene.require_one_unit()
+        if len(scene.robots) > 1:
+            raise SatcheckError("bad-argument", "colliders compares the links of one robot")
     parts = _compared(visual, collision, limits, progress)
     checked = check(collision, settings, least=0)
     drawn = issues_of_input(visual, settings.accept)
@@ -129,9 +128,8 @@ def _compared(
     visual: Scene, collision: Scene, limits: ColliderLimits, progress: Progress | None
 ) -> tuple[ColliderPart, ...]:
     """What moves together, the worst first."""
-    drawn, solid = (list(_members(place(scene, Settings()))) for scene in (visual, collision))
-    links = [*map(_links, (visual, collision))]
-    grouped = _grouped(zip(drawn, links[0], strict=True), zip(solid, links[1], strict=True))
+    drawn, solid = (_members(place(scene, Settings())) for scene in (visual, collision))
+    grouped = _grouped(drawn, solid)
     parts = []
     for number, (name, kinds) in enumerate(grouped.items()):
         if progress is not None:
@@ -146,49 +144,31 @@ def _members(bodies: PlacedBodies) -> Iterator[Member]:
         yield bodies.placed.get(index) or bodies.unusable[index]
 
 
-def _links(scene: Scene) -> list[tuple[int, str] | None]:
-    """The robot and the link of each body, in the order of the scene; None: it is in none."""
-    of_robots = {
-        id_: (number, link)
-        for number, robot in enumerate(scene.robots)
-        for link, ids in robot.by_link().items()
-        for id_ in ids
-    }
-    others = ((body.id, body.link and (-1, body.link)) for body in scene.in_order())
-    return [of_robots.get(id_) or link or None for id_, link in others]
-
-
-Linked = tuple[Member, tuple[int, str] | None]
-
-
-def _grouped(drawn: Iterator[Linked], solid: Iterator[Linked]) -> dict[str, _Kinds]:
+def _grouped(drawn: Iterable[Member], solid: Iterable[Member]) -> dict[str, _Kinds]:
     """What moves together, by name: the bodies of a link. Others are put together by their paths:
     those below the smallest node that has both kinds below, unless a node in it has, too, and the
     node itself is no body."""
-    linked: dict[tuple[int, str], _Kinds] = {}
+    linked: dict[str, _Kinds] = {}
     loose: dict[str, _Kinds] = {}
     for kind, members in enumerate((drawn, solid)):
-        for member, link in members:
-            if link is None:
-                loose.setdefault(member.id, _Kinds([], []))[kind].append(member)
-            else:
-                linked.setdefault(link, _Kinds([], []))[kind].append(member)
-    names: dict[str, _Kinds] = {}
-    for (number, name), kinds in linked.items():
-        names[name if name not in names else f"{name} ({number + 1})"] = kinds
-    paths = {path: path.split("/") for path in loose}
-    nodes = {"/".join(words[:k]) for words in paths.values() for k in range(1, len(words) + 1)}
-    closed: set[str] = set()  # nodes with a group below
+        for member in members:
+            link = member.body.link
+            group = loose if link is None else linked
+            group.setdefault(link or member.id, _Kinds([], []))[kind].append(member)
+    words = [path.split("/") for path in loose]
+    nodes = {"/".join(each[:k]) for each in words for k in range(1, len(each) + 1)}
+    closed: set[str] = set()  # nodes with a group at or below them
     for node in sorted(nodes, key=lambda node: (-node.count("/"), node)):
         below = [path for path in loose if path == node or path.startswith(f"{node}/")]
         kinds = _Kinds(*(list(chain(*(loose[p][kind] for p in below))) for kind in (0, 1)))
         if all(kinds) and (node in loose or node not in closed):
-            names[node] = kinds
+            linked[node] = kinds
+            closed.add(node)
             for path in below:
                 del loose[path]
-        if node in names or node in closed:
+        if node in closed:
             closed.add(node.rpartition("/")[0])
-    return names | loose
+    return linked | loose
 
 
 def _rank(part: ColliderPart) -> tuple[float, ...]:
@@ -261,31 +241,17 @@ def _reach(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody]) -> Reac
     """How far the sources reach out of the union of the targets."""
     same = {_key(body) for body in targets}
     others = [body for body in sources if _key(body) not in same]
-    curved = any(is_curved(body.body.shape) for body in (*others, *targets))
-    reach = Reach(bounds=(0.0, 0.0))
-    for segments in SEGMENTS if curved else SEGMENTS[-1:]:
-        surfaces = [_surface(body, segments) for body in targets]
-        rest, rounded = [], 0.0
-        for body in others:
-            excess = min((_excess(body, surface) for surface in surfaces), default=inf)
-            if excess > ROUNDED * body.diagonal:
-                rest.append(body)
-            else:
-                rounded = max(rounded, excess)
-        reach = _measured(rest, targets, surfaces, segments) if rest else reach
-        reach = replace(reach, bounds=(reach.bounds[0], max(reach.bounds[1], rounded)))
+    if not others:
+        return Reach(bounds=(0.0, 0.0))
+    for segments in SEGMENTS:
+        reach = _measured(others, targets, segments)
         if reach.reason != _FACETS:
             break
     return reach
 
 
-def _measured(
-    sources: Sequence[PlacedBody],
-    targets: Sequence[PlacedBody],
-    surfaces: Sequence[Surface],
-    segments: int,
-) -> Reach:
-    """surfaces: of the targets."""
+def _measured(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody], segments: int) -> Reach:
+    surfaces = [_surface(body, segments) for body in targets]
     mesh, sag = _joined(sources, segments)
     low, high = map(np.array, mesh.bounds)
     finest = FINEST * float(np.linalg.norm(high - low))
@@ -305,40 +271,6 @@ def _measured(
     other = min(targets, key=lambda body: body.surface().nearest(point)[0])
     farthest = Farthest(own.id, point, other.id, other.surface().nearest(point)[1])
     return Reach(bounds=bounds, farthest=farthest, reason=reason)
-
-
-def _excess(body: PlacedBody, surface: Surface) -> float:
-    """No point of a curved shape is farther from a convex mesh; infinite for others.
-
-    The shape lies below the planes of the faces, each lifted by the largest amount by which it
-    sticks out of one. So it lies in the mesh, scaled about an inner point that is deeper than the
-    least depth below all planes.
-    """
-    shape, mesh = body.body.shape, surface.mesh
-    rounding = rounding_pad(max(largest_coordinate(body.bounds), mesh.largest_coordinate))
-    if not is_curved(shape) or not surface.solid:
-        return inf
-    defect = mesh.convexity_defect(rounding)
-    matrix = np.reshape(body.body.transform or IDENTITY, (4, 4))
-    points = np.asarray(mesh.vertices)
-    a, b, c = np.moveaxis(points[np.asarray(mesh.triangles)], 1, 0)
-    normals = np.cross(b - a, c - a)
-    sides = np.linalg.norm([b - a, c - b, a - c], axis=2).max(axis=0)
-    lengths = np.linalg.norm(normals, axis=1)
-    thinnest = float((lengths / sides).min())
-    if defect == inf or thinnest == 0.0:
-        return inf
-    normals /= lengths[:, None]
-    offsets = np.einsum("ij,ij->i", normals, a)
-    reaches = [support(shape, tuple(way)) for way in (normals @ matrix[:3, :3]).tolist()]
-    low, high = map(np.array, mesh.bounds)
-    size = float(np.linalg.norm(high - low))
-    rounding *= 1 + size / thinnest  # a thin triangle has an uncertain normal
-    excess = float((reaches + normals @ matrix[:3, 3] - offsets).max()) + rounding
-    depth = float((offsets - normals @ points.mean(axis=0)).min()) - rounding
-    if excess <= 0.0:
-        return 0.0
-    return defect + excess / depth * size if depth > 0.0 else inf
 
 
 def _key(body: PlacedBody) -> tuple[object, ...]:

@@ -2,9 +2,9 @@
 through the colliders.
 
 A ball passes along a line if no triangle of the mesh is nearer to the line than its radius. It has
-to pass within the convex hull of the mesh, as seen along the line. Colliders close its way if
-parallel lines within it meet them that lie so close together that every ball of a twentieth of its
-diameter, which passes the same way within it, holds one of them.
+to pass between the ends of the mesh, in each of 64 directions across the line. Colliders close its
+way if parallel lines within it meet them that lie so close together that every ball of a twentieth
+of its diameter, which passes the same way within it, holds one of them.
 
 What is found is proven. The search is not complete: it tries some directions, a grid of lines in
 each, and climbs from the best of these.
@@ -35,6 +35,8 @@ _ALIKE = 0.999  # the cosine of directions that are not told apart
 # The step of a square grid of lines, as a share of the radius. A disc of radius r holds a point of
 # a grid whose step is r sqrt(2).
 _FINE = 0.07
+# (2, n): unit vectors in the plane across a line.
+_AROUND = np.array([(np.cos(a), np.sin(a)) for a in np.arange(64) * np.pi / 32]).T
 # Of the size of the mesh: the smallest ball, and more than all rounding.
 SMALLEST = 5e-3
 _MARGIN = 1e-9
@@ -48,23 +50,21 @@ def largest_opening(mesh: Mesh, sag: float, colliders: Sequence[Surface]) -> Ope
     low, high = map(np.array, mesh.bounds)
     size = float(np.linalg.norm(high - low))
     rounded = _MARGIN * (size + float(np.abs([low, high]).max()))
-    hull = mesh if mesh.is_flat() else mesh.convex_hull().to_mesh()
-    drawn, corners, best = Surface(mesh, False), np.asarray(hull.vertices), None
+    drawn, best = Surface(mesh, False), None
     for direction in _directions(mesh):
         least = SMALLEST * size if best is None else best.diameter / 2
-        view = _View(drawn, corners, sag + rounded, colliders, direction, rounded)
+        view = _View(drawn, sag + rounded, colliders, direction, rounded)
         best = view.opening(least, (low + high) / 2) or best
     return best
 
 
 class _View:
-    """All of it, as seen along a direction. corners: of the hull of the mesh. spare: of the
-    distance from the mesh. rounded: more than all rounding."""
+    """All of it, as seen along a direction. spare: of the distance from the mesh. rounded: more
+    than all rounding."""
 
     def __init__(
         self,
         drawn: Surface,
-        corners: Floats,
         spare: float,
         colliders: Sequence[Surface],
         direction: Floats,
@@ -76,9 +76,9 @@ class _View:
         self._axes, self._direction = np.stack([u, np.cross(direction, u)]), direction
         self._drawn, self._spare, self._colliders = drawn, spare, colliders
         self._rounded = rounded
-        points = corners @ self._axes.T
+        points = np.asarray(drawn.mesh.vertices) @ self._axes.T
         self._low, self._high = points.min(axis=0), points.max(axis=0)
-        self._hull = _hull(points)
+        self._ends = (points @ _AROUND).max(axis=0)
 
     def opening(self, least: float, middle: Floats) -> Opening | None:
         """The largest with a radius of more than `least`. middle: near which its point is."""
@@ -129,9 +129,7 @@ class _View:
     def _radii(self, points: Floats, passing: Floats) -> Floats:
         """(n,): of the largest ball that passes there, and holds none of these lines that pass."""
         radii = self._distances(self._drawn, points) - self._spare
-        for start, way in self._hull:
-            height = (points - start) @ np.array([-way[1], way[0]])
-            radii = np.minimum(radii, height - self._spare)
+        radii = np.minimum(radii, (self._ends - points @ _AROUND).min(axis=1) - self._spare)
         some = np.flatnonzero(radii > 0)
         if len(passing):
             for k in some:
@@ -157,28 +155,6 @@ class _View:
         """(n,): how far the lines at these points, (n, 2), pass from the surface."""
         u, v = map(tuple, self._axes.tolist())
         return np.array(surface.line_distances(u, v, list(map(tuple, points.tolist()))))
-
-
-def _hull(points: Floats) -> list[tuple[Floats, Floats]]:
-    """(start, unit vector) of the edges of the convex hull, counter-clockwise; after A. M. Andrew,
-    "Another efficient algorithm for convex hulls in two dimensions" (1979)."""
-    order = np.unique(points, axis=0)
-    chains = []
-    for some in (order, order[::-1]):
-        chain: list[Floats] = []
-        for point in some:
-            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0:
-                chain.pop()
-            chain.append(point)
-        chains += chain[:-1]
-    ways = np.roll(chains, -1, axis=0) - chains
-    return [(p, way / np.linalg.norm(way)) for p, way in zip(chains, ways, strict=True)]
-
-
-def _turn(a: Floats, b: Floats, c: Floats) -> float:
-    """Positive for a left turn."""
-    (px, py), (qx, qy) = (b - a).tolist(), (c - b).tolist()
-    return float(px * qy - py * qx)
 
 
 def _directions(mesh: Mesh) -> list[Floats]:

@@ -15,7 +15,6 @@ from satcheck.audit.words import (
     counted,
     figure,
     interval,
-    stated,
     vector,
     with_unit,
 )
@@ -117,51 +116,37 @@ def as_report(
     placed = place(replace(visual, bodies=tuple(drawn), order=tuple(names.values())), Settings())
     findings = [*checked.findings]
     for part in report.parts:
+        if part.out is None and part.verdict != "pass":
+            findings.append(_of_nothing(part, names))
         for rule, reach, most in (
             (STICKS_OUT, part.out, report.settings.max_out),
             (FALLS_SHORT, part.short, report.settings.max_short),
         ):
-            if reach is not None and reach.farthest is not None:
-                told = _told(part.name, rule, reach.bounds, most, unit_of(report.units))
-                findings.append(_finding(rule, reach, reach.farthest, most, names, told))
-        if part.out is None and part.verdict != "pass":
-            findings.append(_of_nothing(part, names))
+            if reach is not None and (at := reach.farthest) is not None:
+                said = "the colliders stick out" if rule == STICKS_OUT else "they fall short"
+                said += f" by {figure(reach.bounds, unit_of(report.units))} at {vector(at.point)}"
+                finding = _finding(rule, reach, at, most, names)
+                findings.append(replace(finding, message=f"{part.name}: {said}."))
     bodies = (*checked.bodies, *body_reports(placed))
     return replace(checked, bodies=bodies, findings=tuple(findings)), both
 
 
-def _told(
-    name: str, rule: str, bounds: tuple[float, float], most: float | None, unit: str | None
-) -> str:
-    verb = "a collider sticks out" if rule == STICKS_OUT else "the colliders fall short"
-    limit = "" if most is None else f" (limit {with_unit(stated(most), unit)})"
-    return f"{name}: {verb} by {figure(bounds, unit)}{limit}"
-
-
 def _finding(
-    rule: str,
-    reach: Reach,
-    farthest: Farthest,
-    most: float | None,
-    names: Mapping[str, str],
-    told: str,
+    rule: str, reach: Reach, at: Farthest, most: float | None, names: Mapping[str, str]
 ) -> Finding:
     """most: the limit. names: of the drawn bodies."""
     low, high = reach.bounds
-    a, b = farthest.body, farthest.nearest_body
-    a, b = (a, names[b]) if rule == STICKS_OUT else (names[a], b)
-    is_open = most is not None and low <= most < high
+    is_out, is_open = rule == STICKS_OUT, most is not None and low <= most < high
     return Finding(
-        id=finding_id(f"{rule} {a}", b),
-        a=a,
-        b=b,
+        id=finding_id(f"{rule} {at.body}", at.nearest_body),
+        a=at.body if is_out else names[at.body],
+        b=names[at.nearest_body] if is_out else at.nearest_body,
         rule=rule,
         severity="note" if most is None or high <= most else "warning" if is_open else "error",
-        message=f"{told} at {vector(farthest.point)}.",
         undecided="limit" if is_open else None,
         relation="separated",
         distance=low,
-        witness=Witness(farthest.point, farthest.nearest),
+        witness=Witness(at.point, at.nearest),
         reason=reach.reason,
         plan=(),
     )
@@ -170,14 +155,15 @@ def _finding(
 def _of_nothing(part: ColliderPart, names: Mapping[str, str]) -> Finding:
     """For a link of which one geometry is missing or cannot be used."""
     body = part.colliders[0] if part.colliders else names[part.visuals[0]]
+    fails = part.verdict == "fail"
     return Finding(
         id=finding_id(body, body),
         a=body,
         b=body,
-        rule=STICKS_OUT if part.colliders else FALLS_SHORT,
-        severity="error" if part.verdict == "fail" else "warning",
+        rule=FALLS_SHORT if fails else STICKS_OUT,
+        severity="error" if fails else "warning",
         message=f"{part.name}: {part.reason}.",
-        undecided=None if part.verdict == "fail" else "limit",
+        undecided=None if fails else "limit",
         relation="separated",
         plan=(),
     )

@@ -110,7 +110,11 @@ class Outside {
         seen[v] = true;
       }
     }
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) add(corners(mesh, t));
+    if (members_.size() == 1 && std::isfinite(members_[0].defect)) {
+      settled_ = lower_ + members_[0].defect;
+    } else {
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) add(corners(mesh, t));
+    }
     while (!open_.empty() && open_.key() > enough() && pieces_ < kMostPieces && !budget_.is_spent()) {
       const auto [one, other] = halves(open_.pop());
       raise_lower(one[1]);  // the new corner
@@ -194,13 +198,17 @@ class Outside {
   }
 
   void raise_lower(Vec3 v) {
+    if (budget_.is_due()) budget_.tell(lower_, INFINITY);
     double distance = INFINITY;
+    for (const Member& each : members_) {
+      if (std::isfinite(each.defect) && is_inside(each.surface, v, budget_)) return;
+    }
     for (const Member& each : members_) {
       if (distance_to(each.surface, v) < distance) distance = std::fmin(distance, nearest_point(each.surface, v, &budget_).distance);
       if (distance <= lower_) return;
     }
     for (const Member& each : members_) {
-      if (is_inside(each.surface, v, budget_)) return;
+      if (!std::isfinite(each.defect) && is_inside(each.surface, v, budget_)) return;
     }
     lower_ = distance;
     point_ = v;
