@@ -12,7 +12,6 @@ its surface alone.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import NamedTuple
@@ -31,6 +30,7 @@ from satcheck.audit.summary import issues_of_input, tool
 from satcheck.audit.words import counted, figure, is_wrong, worst_first
 from satcheck.core import Mesh, Surface
 from satcheck.core.errors import SatcheckError
+from satcheck.core.mesh_arrays import joined
 from satcheck.core.shape_mesh import mesh_of, sag_of
 from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step
@@ -84,11 +84,20 @@ def compare(
         scene.require_one_unit()
         if len(scene.robots) > 1:
             raise SatcheckError("bad-argument", "colliders compares the links of one robot")
-    parts = _compared(visual, collision, limits, progress)
+    drawn, solid = (_members(place(scene, Settings())) for scene in (visual, collision))
+    grouped, parts = _grouped(drawn, solid), []
+    for number, (name, kinds) in enumerate(grouped.items()):
+        if progress is not None:
+            progress(number, len(grouped))
+        with step(f"comparing {name}, {number + 1} of {len(grouped)}"):
+            parts.append(_part(name, kinds, limits))
     checked = check(collision, settings, least=0)
-    drawn = issues_of_input(visual, settings.accept)
-    new = {(issue.code, issue.file, issue.message) for issue in checked.issues}
-    issues = [i for i in drawn if i.severity != "note" and (i.code, i.file, i.message) not in new]
+    told = {(issue.code, issue.file, issue.message) for issue in checked.issues}
+    issues = [
+        issue
+        for issue in issues_of_input(visual, settings.accept)
+        if issue.severity != "note" and (issue.code, issue.file, issue.message) not in told
+    ]
     checked = replace(checked, issues=(*checked.issues, *issues))
     verdicts = {part.verdict for part in parts} | {checked.summary.verdict}
     if any(issue.state == "blocking" for issue in issues):
@@ -100,7 +109,7 @@ def compare(
         settings=limits,
         verdict=verdict,
         message="",
-        parts=parts,
+        parts=tuple(sorted(parts, key=_rank)),
         pairs=checked.summary.pairs,
         overlaps=tuple(worst_first(filter(is_wrong, checked.findings))),
         issues=checked.issues,
@@ -112,31 +121,16 @@ def compare(
 
 def _said(report: CollidersReport) -> Iterator[str]:
     unit = unit_of(report.units)
-    for kind, verb in (("out", "stick out by"), ("short", "fall short by")):
-        reaches = [reach for part in report.parts if (reach := getattr(part, kind)) is not None]
-        if reaches:
-            worst = max(reaches, key=lambda reach: reach.bounds[1])
-            yield f"colliders {verb} {figure(worst.bounds, unit)} where they are worst;"
-    counts: Counter[str] = Counter(part.verdict for part in report.parts)
-    for verdict, words in (("fail", "beyond the limits"), ("incomplete", "undecided")):
-        if counts[verdict]:
-            yield f"{counted(counts[verdict], 'link')} {words};"
-    yield f"{counted(len(report.overlaps), 'pair')} of colliders overlapping or undecided."
-
-
-def _compared(
-    visual: Scene, collision: Scene, limits: ColliderLimits, progress: Progress | None
-) -> tuple[ColliderPart, ...]:
-    """What moves together, the worst first."""
-    drawn, solid = (_members(place(scene, Settings())) for scene in (visual, collision))
-    grouped = _grouped(drawn, solid)
-    parts = []
-    for number, (name, kinds) in enumerate(grouped.items()):
-        if progress is not None:
-            progress(number, len(grouped))
-        with step(f"comparing {name}, {number + 1} of {len(grouped)}"):
-            parts.append(_part(name, kinds, limits))
-    return tuple(sorted(parts, key=_rank))
+    for verb, own in (
+        ("stick out by", [part.out for part in report.parts if part.out]),
+        ("fall short by", [part.short for part in report.parts if part.short]),
+    ):
+        if own:
+            worst = max((reach.bounds for reach in own), key=lambda bounds: bounds[1])
+            yield f"colliders {verb} {figure(worst, unit)} where they are worst,"
+    wrong = sum(part.verdict != "pass" for part in report.parts)
+    overlaps = counted(len(report.overlaps), "pair")
+    yield f"{counted(wrong, 'link')} and {overlaps} of colliders fail or are undecided."
 
 
 def _members(bodies: PlacedBodies) -> Iterator[Member]:
@@ -258,7 +252,8 @@ def _measured(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody], segm
     lower, upper, point, narrow = core.union_deviation(mesh, surfaces, finest, RATIO, STEPS)
     reason = None if narrow else _SPENT
     if not all(surface.solid for surface in surfaces):
-        filled = list(chain.from_iterable(map(_with_every_fill, surfaces)))
+        closed = (s.closed() if not s.solid else (s, []) for s in surfaces)
+        filled = [each for surface, hulls in closed for each in (surface, *hulls)]
         lower, _, point, narrow = core.union_deviation(mesh, filled, finest, RATIO, STEPS)
         reason = reason if lower >= (1 - 2 * RATIO) * upper - finest else _HOLES
     widening = sag + max(_sag(body, segments) for body in targets)
@@ -301,16 +296,4 @@ def _mesh(body: PlacedBody, segments: int) -> Mesh:
 
 def _joined(bodies: Sequence[PlacedBody], segments: int) -> tuple[Mesh, float]:
     """One mesh of all, and how far the true surface may be off it."""
-    meshes = [_mesh(body, segments) for body in bodies]
-    starts = np.cumsum([0, *(mesh.vertex_count for mesh in meshes)]).astype(np.uint32)
-    triangles = [np.asarray(m.triangles) + s for m, s in zip(meshes, starts, strict=False)]
-    mesh = Mesh(np.concatenate([np.asarray(m.vertices) for m in meshes]), np.concatenate(triangles))
-    return mesh, max(_sag(body, segments) for body in bodies)
-
-
-def _with_every_fill(surface: Surface) -> list[Surface]:
-    """Solids that contain the mesh, whatever fills its holes."""
-    if surface.solid:
-        return [surface]
-    closed, hulls = surface.closed()
-    return [closed, *hulls]
+    return joined(_mesh(b, segments) for b in bodies), max(_sag(b, segments) for b in bodies)

@@ -49,36 +49,29 @@ def largest_opening(mesh: Mesh, sag: float, colliders: Sequence[Surface]) -> Ope
     """
     low, high = map(np.array, mesh.bounds)
     size = float(np.linalg.norm(high - low))
-    rounded = _MARGIN * (size + float(np.abs([low, high]).max()))
     drawn, best = Surface(mesh, False), None
     for direction in _directions(mesh):
         least = SMALLEST * size if best is None else best.diameter / 2
-        view = _View(drawn, sag + rounded, colliders, direction, rounded)
+        view = _View(drawn, sag, colliders, direction)
         best = view.opening(least, (low + high) / 2) or best
     return best
 
 
 class _View:
-    """All of it, as seen along a direction. spare: of the distance from the mesh. rounded: more
-    than all rounding."""
+    """All of it, as seen along a direction."""
 
     def __init__(
-        self,
-        drawn: Surface,
-        spare: float,
-        colliders: Sequence[Surface],
-        direction: Floats,
-        rounded: float,
+        self, drawn: Surface, sag: float, colliders: Sequence[Surface], direction: Floats
     ) -> None:
-        least = np.eye(3)[np.abs(direction).argmin()]
-        u = np.cross(least, direction)
+        u = np.cross(np.eye(3)[np.abs(direction).argmin()], direction)
         u /= np.linalg.norm(u)
         self._axes, self._direction = np.stack([u, np.cross(direction, u)]), direction
-        self._drawn, self._spare, self._colliders = drawn, spare, colliders
-        self._rounded = rounded
+        self._drawn, self._colliders = drawn, colliders
         points = np.asarray(drawn.mesh.vertices) @ self._axes.T
         self._low, self._high = points.min(axis=0), points.max(axis=0)
         self._ends = (points @ _AROUND).max(axis=0)
+        self._rounded = _MARGIN * drawn.mesh.largest_coordinate
+        self._spare = sag + self._rounded
 
     def opening(self, least: float, middle: Floats) -> Opening | None:
         """The largest with a radius of more than `least`. middle: near which its point is."""
@@ -130,17 +123,15 @@ class _View:
         """(n,): of the largest ball that passes there, and holds none of these lines that pass."""
         radii = self._distances(self._drawn, points) - self._spare
         radii = np.minimum(radii, (self._ends - points @ _AROUND).min(axis=1) - self._spare)
-        some = np.flatnonzero(radii > 0)
-        if len(passing):
-            for k in some:
-                radii[k] = min(radii[k], np.linalg.norm(passing - points[k], axis=1).min())
-        return np.maximum(radii, 0.0)
+        for k in np.flatnonzero(radii > 0) if len(passing) else ():
+            radii[k] = min(radii[k], np.linalg.norm(passing - points[k], axis=1).min())
+        held: Floats = np.maximum(radii, 0.0)
+        return held
 
     def _closes(self, centre: Floats, radius: float) -> bool:
         """Whether the colliders close the way of the ball."""
-        step = _FINE * radius
         count = int(1 / _FINE)
-        steps = np.arange(-count, count + 1) * step
+        steps = np.arange(-count, count + 1) * (_FINE * radius)
         points = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
         return bool(self._meet(centre + points[np.linalg.norm(points, axis=1) <= radius]).all())
 
@@ -154,7 +145,8 @@ class _View:
     def _distances(self, surface: Surface, points: Floats) -> Floats:
         """(n,): how far the lines at these points, (n, 2), pass from the surface."""
         u, v = map(tuple, self._axes.tolist())
-        return np.array(surface.line_distances(u, v, list(map(tuple, points.tolist()))))
+        found: Floats = np.array(surface.line_distances(u, v, list(map(tuple, points.tolist()))))
+        return found
 
 
 def _directions(mesh: Mesh) -> list[Floats]:

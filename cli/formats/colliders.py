@@ -31,7 +31,7 @@ from satcheck.cli.formats.tables import (
 )
 from satcheck.cli.output import issue_line
 from satcheck.report.colliders import FALLS_SHORT, STICKS_OUT
-from satcheck.report.report import Finding, Witness, finding_id
+from satcheck.report.report import Finding, Issue, Witness, finding_id
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -91,18 +91,18 @@ def _opening(part: ColliderPart) -> str:
 
 
 def _places(part: ColliderPart, unit: str | None) -> Iterator[str]:
-    """Yield `link5: sticks out at (1, 0, 0); closes 88 mm at (0, 0, 0), along (1, 0, 0)`."""
-    said = [
-        f"{verb} at {vector(reach.farthest.point)}"
-        for verb, reach in (("sticks out", part.out), ("falls short", part.short))
-        if reach is not None and reach.farthest is not None
-    ]
+    for rule, reach in ((STICKS_OUT, part.out), (FALLS_SHORT, part.short)):
+        if reach is not None and reach.farthest is not None:
+            yield _sentence(part, rule, reach, reach.farthest, unit)
     if (opening := part.opening) is not None:
         wide = with_unit(at_least(opening.diameter), unit)
-        way = vector(opening.direction)
-        said.append(f"closes an opening {wide} wide at {vector(opening.point)}, along {way}")
-    if said:
-        yield f"{part.name}: {'; '.join(said)}"
+        at, way = vector(opening.point), vector(opening.direction)
+        yield f"{part.name}: closes an opening {wide} wide at {at}, along {way}."
+
+
+def _sentence(part: ColliderPart, rule: str, reach: Reach, at: Farthest, unit: str | None) -> str:
+    said = "sticks out" if rule == STICKS_OUT else "falls short"
+    return f"{part.name}: {said} by {figure(reach.bounds, unit)} at {vector(at.point)}."
 
 
 def as_report(
@@ -116,19 +116,29 @@ def as_report(
     placed = place(replace(visual, bodies=tuple(drawn), order=tuple(names.values())), Settings())
     findings = [*checked.findings]
     for part in report.parts:
-        if part.out is None and part.verdict != "pass":
-            findings.append(_of_nothing(part, names))
         for rule, reach, most in (
             (STICKS_OUT, part.out, report.settings.max_out),
             (FALLS_SHORT, part.short, report.settings.max_short),
         ):
             if reach is not None and (at := reach.farthest) is not None:
-                said = "the colliders stick out" if rule == STICKS_OUT else "they fall short"
-                said += f" by {figure(reach.bounds, unit_of(report.units))} at {vector(at.point)}"
-                finding = _finding(rule, reach, at, most, names)
-                findings.append(replace(finding, message=f"{part.name}: {said}."))
-    bodies = (*checked.bodies, *body_reports(placed))
-    return replace(checked, bodies=bodies, findings=tuple(findings)), both
+                said = _sentence(part, rule, reach, at, unit_of(report.units))
+                findings.append(replace(_finding(rule, reach, at, most, names), message=said))
+    open_links = (part for part in report.parts if part.out is None and part.verdict != "pass")
+    issues = (
+        Issue(
+            "not-measured",
+            "error" if part.verdict == "fail" else "warning",
+            *(None, None, f"{part.name}: {part.reason}"),
+        )
+        for part in open_links
+    )
+    listed = replace(
+        checked,
+        bodies=(*checked.bodies, *body_reports(placed)),
+        findings=tuple(findings),
+        issues=(*checked.issues, *issues),
+    )
+    return listed, both
 
 
 def _finding(
@@ -148,22 +158,5 @@ def _finding(
         distance=low,
         witness=Witness(at.point, at.nearest),
         reason=reach.reason,
-        plan=(),
-    )
-
-
-def _of_nothing(part: ColliderPart, names: Mapping[str, str]) -> Finding:
-    """For a link of which one geometry is missing or cannot be used."""
-    body = part.colliders[0] if part.colliders else names[part.visuals[0]]
-    fails = part.verdict == "fail"
-    return Finding(
-        id=finding_id(body, body),
-        a=body,
-        b=body,
-        rule=FALLS_SHORT if fails else STICKS_OUT,
-        severity="error" if fails else "warning",
-        message=f"{part.name}: {part.reason}.",
-        undecided=None if fails else "limit",
-        relation="separated",
         plan=(),
     )
