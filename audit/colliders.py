@@ -27,7 +27,7 @@ from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.openings import SMALLEST, largest_opening
 from satcheck.audit.settings import Settings
 from satcheck.audit.summary import issues_of_input, tool
-from satcheck.audit.words import counted, figure, is_wrong, worst_first
+from satcheck.audit.words import counted, is_wrong, worst_first
 from satcheck.core import Mesh, Surface
 from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_arrays import joined
@@ -45,7 +45,6 @@ from satcheck.report.colliders import (
 from satcheck.report.report import Report
 from satcheck.report.values import Verdict
 from satcheck.scene import Scene
-from satcheck.scene.units import unit_of
 
 # The width of an interval: as a share of its lower end, or of the size of the link.
 RATIO = 0.01
@@ -114,23 +113,16 @@ def compare(
         overlaps=tuple(worst_first(filter(is_wrong, checked.findings))),
         issues=checked.issues,
     )
-    message = " ".join([f"{verdict.upper()}:", *_said(report)])
+    message = _message(report)
     summary = replace(checked.summary, verdict=verdict)
     return replace(report, message=message), replace(checked, summary=summary, message=message)
 
 
-def _said(report: CollidersReport) -> Iterator[str]:
-    unit = unit_of(report.units)
-    for verb, own in (
-        ("stick out by", [part.out for part in report.parts if part.out]),
-        ("fall short by", [part.short for part in report.parts if part.short]),
-    ):
-        if own:
-            worst = max((reach.bounds for reach in own), key=lambda bounds: bounds[1])
-            yield f"colliders {verb} {figure(worst, unit)} where they are worst,"
+def _message(report: CollidersReport) -> str:
     wrong = sum(part.verdict != "pass" for part in report.parts)
-    overlaps = counted(len(report.overlaps), "pair")
-    yield f"{counted(wrong, 'link')} and {overlaps} of colliders fail or are undecided."
+    links, pairs = counted(len(report.parts), "link"), counted(len(report.overlaps), "pair")
+    said = f"{wrong} of {links} and {pairs} of colliders fail or are undecided"
+    return f"{report.verdict.upper()}: {said}."
 
 
 def _members(bodies: PlacedBodies) -> Iterator[Member]:

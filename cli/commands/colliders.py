@@ -72,7 +72,8 @@ def command(
     refuse_early(inputs, outputs)
     document = Document()
     visual, collision = (_loaded(inputs, kind) for kind in ("visual", "collision"))
-    tell_issues(dict.fromkeys(i for i in collision.issues if i.severity == "error"))
+    issues = dict.fromkeys((*visual.issues, *collision.issues))
+    tell_issues(issue for issue in issues if issue.severity == "error")
     limits = ColliderLimits(
         max_out=_limit(max_out, visual, "--max-out"),
         max_short=_limit(max_short, visual, "--max-short"),
