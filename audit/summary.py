@@ -180,14 +180,18 @@ def issues_of(
 ) -> tuple[Issue, ...]:
     """The issues of the input, then those of the run; each once. allowed: rules allow all pairs.
     accept: those that block nothing, beside those that the scene accepts."""
-    issues = [
-        Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
-        for issue in scene.issues
-    ]
     asks = counts.asked or scene.asks_for_regions or scene.asks_for_support
     lone = len(bodies.ids) == 1
     empty = [] if asks or lone else [_nothing_to_check(scene, bodies, counts, allowed)]
-    once = dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs))
+    return issues_of_input(scene, accept, (*bodies.issues, *empty, *of_pairs))
+
+
+def issues_of_input(
+    scene: Scene, accept: Sequence[str], others: Iterable[Issue] = ()
+) -> tuple[Issue, ...]:
+    """The issues of the input, and others, each once. accept: as above."""
+    own = (Issue(i.code, i.severity, i.body, i.file, i.message) for i in scene.issues)
+    once = dict.fromkeys((*own, *others))
     return tuple(with_states(once, (*scene.accept, *map(Accepted, accept))))
 
 

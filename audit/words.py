@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
+from satcheck.report.colliders import OF_COLLIDERS
 from satcheck.report.judge import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES
 from satcheck.report.request import OPTIONS_OF_LIMITS
@@ -323,6 +324,8 @@ def _size(finding: Finding) -> tuple[int, float, float]:
     if is_hit(finding):
         return (1, _first_time(finding), 0.0)
     gap = inf if finding.distance is None else finding.distance
+    if finding.rule in OF_COLLIDERS:
+        return (-1, -gap, 0.0)
     return (2 + _MILDER.index(finding.at_rest), gap, -(finding.thickness or 0.0))
 
 

@@ -74,6 +74,7 @@ from satcheck._native.core import (
     search_thickness,
     sift,
     surface_intersection,
+    union_deviation,
     with_cracks_closed,
 )
 from satcheck.core.conventions import OUTCOMES
@@ -159,6 +160,7 @@ __all__ = [
     "search_thickness",
     "sift",
     "surface_intersection",
+    "union_deviation",
     "with_cracks_closed",
 ]
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
+from satcheck._native.core import Mesh
 from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
@@ -126,3 +128,14 @@ def _array(values: ArrayLike, name: str) -> Array:
 def refused(message: str) -> SatcheckError:
     """Return the error to be raised."""
     return SatcheckError("bad-argument", message)
+
+
+def joined(meshes: Iterable[Mesh]) -> Mesh:
+    """All as one."""
+    import numpy as np
+
+    listed = list(meshes)
+    firsts = np.cumsum([0, *(mesh.vertex_count for mesh in listed)])
+    corners = [np.asarray(m.triangles) + first for m, first in zip(listed, firsts, strict=False)]
+    points = [np.asarray(mesh.vertices) for mesh in listed]
+    return Mesh(np.concatenate(points), np.concatenate(corners).astype(np.uint32))

@@ -81,7 +81,8 @@ class Body(Struct, frozen=True):
     transform; None: no conversion. surface_tolerance: how far its surface may be off, world units;
     None: the scene does not say. open: its mesh is meant to be open: sheets, not a solid with
     holes.
-    as_given: in a check in a plane, the body whose outline this is.
+    as_given: in a check in a plane, the body whose outline this is. link: the rigid body that the
+    file makes it a part of; None: it states none.
     """
 
     id: str
@@ -98,6 +99,7 @@ class Body(Struct, frozen=True):
     surface_tolerance: float | None = None
     open: bool = False
     as_given: Body | None = None
+    link: str | None = None
 
     def world_mesh(self) -> Mesh:
         """The mesh in world coordinates, each rounded once. Raises ValueError on overflow."""
@@ -135,6 +137,7 @@ class Unreadable(Struct, frozen=True):
     groups: tuple[str, ...] = ()
     path: str | None = None
     static: bool = False
+    link: str | None = None
 
 
 class Entry(Struct, frozen=True):

@@ -153,7 +153,7 @@ class SceneBuilder:
             # A file of shapes has many bodies: the message is about the body, not the file.
             message = str(file) if exact is None else file.message
             reason = issue(file.code, message, body=id_, file=path)
-            lost = Unreadable(id_, path, reason, groups_here, node, item.static)
+            lost = Unreadable(id_, path, reason, groups_here, node, item.static, item.link)
             own.bodies.append(lost)
             return id_
         is_named = item.id or item.path
@@ -170,6 +170,7 @@ class SceneBuilder:
             item.pinned or is_floor,
             stated_unit(item.units or file.units) or own.unit,
             surface_tolerance=item.surface_tolerance,
+            link=item.link,
         )
         own.bodies.append(body)
         return id_

@@ -33,6 +33,7 @@ COMMANDS = {
     "axes": "Show why two convex bodies are apart, axis by axis.",
     "baseline": "Known findings that do not fail a check.",
     "batch": "Check each asset of a folder, and thousands of them.",
+    "colliders": "Show how faithful the colliders of links are to what is drawn.",
     "config": "The config file: show which options are in effect.",
     "decompose": "Split meshes into convex parts, for physics engines.",
     "resolve": "Move the bodies of a scene apart, by short ways.",

@@ -16,6 +16,7 @@ from satcheck.cli.option import Told
 from satcheck.cli.output import Document
 from satcheck.report.assets import AssetsReport, Result
 from satcheck.report.axes import AxesReport
+from satcheck.report.colliders import CollidersReport
 from satcheck.report.decomposition import DecompositionReport
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
@@ -30,6 +31,7 @@ from satcheck.scene.units import LENGTH_PATTERN
 STRUCTS: dict[str, type[Struct]] = {
     "assets": AssetsReport,
     "axes": AxesReport,
+    "colliders": CollidersReport,
     "decomposition": DecompositionReport,
     "report": Report,
     "resolution": ResolutionReport,

@@ -67,6 +67,7 @@ def read_gltf(file: File) -> Document:
     else:
         scene = reader.read()
         if colliders:
+            scene = reader.linked(scene, colliders)
             message = "meshes are checked, and no colliders (--geometry collision checks them)"
             if geometry is None:
                 unknown.note(("colliders", ""), message)
@@ -129,14 +130,25 @@ class GltfScene:
         parts, nodes = [], []
         for number, one in enumerate(placed):
             content, matrix = self._content(colliders.of(one.key), one.matrix)
-            body = next(filter(colliders.moves, (one.key, *self._above(one.key))), None)
+            link = self._link(one.key, colliders)
             parts.append(RawPart(f"collider{number}", content))
-            groups = () if body is None else (f"rigid body {body}",)
-            nodes.append(Item(number, one.path, matrix, groups=groups))
+            groups = () if link is None else (link,)
+            nodes.append(Item(number, one.path, matrix, groups=groups, link=link))
         bodies = dict.fromkeys(group for node in nodes for group in node.groups)
         rules = [RawRule.within(name, "colliders of one rigid body") for name in bodies]
         note = "left-out", "colliders are checked: meshes that are no collider have no body"
         return Document(tuple(parts), tuple(nodes), (note,), "meter", tuple(rules))
+
+    def linked(self, drawn: Document, colliders: Colliders) -> Document:
+        """Return the drawn meshes with the rigid bodies that they are part of."""
+        links = {node.path: self._link(node.key, colliders) for node in self._drawn}
+        items = (replace(item, link=links.get(item.path or "")) for item in drawn.items)
+        return replace(drawn, items=tuple(items))
+
+    def _link(self, number: int, colliders: Colliders) -> str | None:
+        """The rigid body that a node is part of."""
+        body = next(filter(colliders.moves, (number, *self._above(number))), None)
+        return None if body is None else f"rigid body {body}"
 
     def left_out(self, unknown: UnknownNames) -> str:
         """Name the nodes with a mesh that the scene lacks, and count meshes without a node."""

@@ -17,6 +17,7 @@ from satcheck.cli.formats.summary import issues_to_tell
 from satcheck.cli.output import with_place
 from satcheck.report.assets import LEFT_OUT
 from satcheck.report.bodies import Place
+from satcheck.report.colliders import FALLS_SHORT, STICKS_OUT
 from satcheck.report.report import NOTHING_TO_CHECK, OF_ANSWERS
 from satcheck.report.verdict import severity
 
@@ -36,6 +37,8 @@ KINDS = {
     "clearance": "Two bodies are closer than their clearance.",
     "touch": "Two bodies touch.",
     "undecided": "A question about two bodies could not be decided.",
+    STICKS_OUT: "A collider sticks out of what is drawn.",
+    FALLS_SHORT: "A collider falls short of what is drawn.",
 }
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from satcheck.cli.formats.picture.moments import boxes_of, matrix_of
 from satcheck.cli.formats.picture.packing import frame_of, packed, packed_mesh, simplified
 from satcheck.core import Mesh
+from satcheck.core.mesh_arrays import joined
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box, Cone, Cylinder, Primitive, Sphere
 
@@ -112,15 +113,6 @@ def _box(mesh: Mesh) -> Mesh:
     low, high = np.array(mesh.bounds)
     centred = mesh_of(Box((1.0, 1.0, 1.0)))
     return Mesh(low + (np.asarray(centred.vertices) + 0.5) * (high - low), centred.triangles)
-
-
-def joined(meshes: Iterable[Mesh]) -> Mesh:
-    """All as one."""
-    listed = list(meshes)
-    firsts = np.cumsum([0, *(mesh.vertex_count for mesh in listed)])
-    corners = [np.asarray(m.triangles) + first for m, first in zip(listed, firsts, strict=False)]
-    points = [np.asarray(mesh.vertices) for mesh in listed]
-    return Mesh(np.concatenate(points), np.concatenate(corners).astype(np.uint32))
 
 
 class _Meshes:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from satcheck import core
-from satcheck.cli.formats.picture.geometry import joined
 from satcheck.core import Mesh
+from satcheck.core.mesh_arrays import joined
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Cone, Cylinder, Sphere
 

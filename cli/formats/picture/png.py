@@ -24,6 +24,7 @@ from satcheck.cli.formats.picture.moments import moments_of, sphere_around
 from satcheck.cli.formats.picture.raster import INNER, MARKS, Kind, Triangles, drawn
 from satcheck.cli.formats.picture.shown import Shows, placed_point
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, of_all
+from satcheck.report.colliders import OF_COLLIDERS
 from satcheck.report.report import OVERLAPS
 from satcheck.report.verdict import severity
 
@@ -121,7 +122,8 @@ def render(
     image = image if aside is None else np.concatenate([image, aside], axis=1)
     a, b = short_names(finding.a, finding.b)
     said = [moments.note] if moments.note else []
-    said += [] if is_hit(finding) and shown.marks.hit is not None else [finding.at_rest]
+    says_it = finding.rule in OF_COLLIDERS or (is_hit(finding) and shown.marks.hit is not None)
+    said += [] if says_it else [finding.at_rest]
     said += [label.text for label in shown.labels if label.kind not in ("a", "b")]
     words = f"{severity(finding)}: {', '.join(said)}"
     return image_file(_captioned(image, [[(A, a), (B, b)], [(None, words)]], size))

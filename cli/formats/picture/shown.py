@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from satcheck import core
+from satcheck.audit.messages import measured
 from satcheck.audit.stages.contacts import contacts_of
 from satcheck.audit.words import (
     between_poses,
@@ -21,6 +22,7 @@ from satcheck.audit.words import (
 from satcheck.cli.formats.picture.marks import deciding_rim, dot
 from satcheck.cli.formats.picture.moments import boxes_of, matrix_of, sphere_around
 from satcheck.cli.formats.picture.viewpoint import Viewpoint, Viewpoints
+from satcheck.report.colliders import OF_COLLIDERS
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
@@ -193,6 +195,7 @@ class Shows:
         if marks.gap is not None:
             length = float(np.linalg.norm(marks.gap[1] - marks.gap[0]))
             text = f"gap {with_unit(number(length), unit)}"
+            text = measured(finding, unit) if finding.rule in OF_COLLIDERS else text
             labels.append(Label(text, (marks.gap[0] + marks.gap[1]) / 2, "gap"))
         if marks.hit is not None and finding.motion is not None:
             at, poses = finding.motion.at, finding.motion.poses

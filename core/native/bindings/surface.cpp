@@ -2,6 +2,7 @@
 // Nothing but conversions.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -87,7 +88,16 @@ triangles of the surface only at shared corners and edges.)")
              const NearestPoint nearest = nearest_point(s, finite_point(point));
              return std::make_tuple(nearest.distance, to_tuple(nearest.point));
            },
-           "point"_a, ReleaseGil());
+           "point"_a, ReleaseGil())
+      .def("line_distances",
+           [](const Surface& s, const Tuple3& u, const Tuple3& v, const std::vector<std::pair<double, double>>& points) {
+             Budget budget = Budget::that_stops(kNoEnd, interrupting());
+             std::vector<double> distances;
+             for (const auto& [x, y] : points) distances.push_back(line_distance(s, finite_point(u), finite_point(v), x, y, &budget));
+             return distances;
+           },
+           "u"_a, "v"_a, "points"_a, ReleaseGil(), R"(The distances of the surface from parallel lines: u and v are unit vectors, perpendicular to the lines and to each
+other, and a line is given by its coordinates along both.)");
 }
 
 std::int64_t triangle_number(std::uint32_t triangle) {
@@ -162,13 +172,23 @@ length. Decided exactly. Raises TooManySteps.)");
 is exact if nothing is rounded.)");
   m.def("deviation",
         [](const Mesh& surface_of, const Surface& solid, double tolerance) {
-          Budget budget = Budget::that_stops(kNoEnd, interrupting());
-          const Deviation d = deviation(surface_of, solid, tolerance, budget);
+          Budget budget(kNoEnd, interrupting());
+          const Deviation d = deviation(surface_of, {&solid}, tolerance, 0, budget);
           return std::make_tuple(d.lower, d.upper);
         },
         "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
         R"((lower, upper) bounds of the largest distance of a point of the surface from the solid, 0 inside; they are at
 most `tolerance` apart, unless the work limit was reached. Branch and bound over triangles: the distance is 1-Lipschitz.)");
+  m.def("union_deviation",
+        [](const Mesh& surface_of, const std::vector<const Surface*>& solids, double tolerance, double ratio, std::uint64_t steps) {
+          Budget budget(steps, interrupting());
+          const Deviation d = deviation(surface_of, solids, tolerance, ratio, budget);
+          return std::make_tuple(d.lower, d.upper, to_tuple(d.point), d.narrow);
+        },
+        "surface_of"_a, "solids"_a, "tolerance"_a, "ratio"_a, "steps"_a, ReleaseGil(),
+        R"((lower, upper, point, narrow): the same for the union of several surfaces, of which only those that are closed have
+an inside. point: of the surface, at least `lower` away. narrow: the bounds are at most `tolerance`, or that share of the
+lower one, apart; else so many steps, each about a nanosecond, do not suffice.)");
   m.def("reaches_deeper",
         [](const Mesh& surface_of, const Surface& solid, double length, std::uint64_t work) {
           if (!solid.solid) throw std::invalid_argument("the surface is not a solid");

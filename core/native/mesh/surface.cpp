@@ -61,6 +61,34 @@ int order(const Mesh& a, const Mesh& b) {
 // Measured steps of a triangle on the way.
 constexpr std::uint64_t kTriangleWork = 25;
 
+// Calls compare(triangle), which lowers `best`, for the triangles of boxes with a lower bound below it, the nearest first.
+template <class Bound, class Compare>
+void visit_nearest(const Surface& surface, const double& best, Bound bound, Compare compare, Budget* budget) {
+  std::vector<std::pair<double, std::uint32_t>> stack;
+  stack.reserve(kUsualDepth);
+  stack.push_back({0.0, 0u});
+  while (!stack.empty()) {
+    const auto [least, index] = stack.back();
+    stack.pop_back();
+    spend(budget, kNodeWork);
+    if (!(least < best)) continue;
+    const BvhNode& node = surface.bvh.nodes[index];
+    if (!node.is_leaf()) {
+      const auto bounded = [&](std::uint32_t child) { return std::pair{bound(surface.bvh.nodes[child].box), child}; };
+      auto farther = bounded(node.first), nearer = bounded(node.first + 1);
+      if (farther.first < nearer.first) std::swap(farther, nearer);
+      stack.push_back(farther);
+      stack.push_back(nearer);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (!(bound(box_at(surface.bvh, surface.mesh, i)) < best)) continue;
+      spend(budget, kTriangleWork);
+      compare(surface.bvh.order[i]);
+    }
+  }
+}
+
 }  // namespace
 
 Surface make_surface(const Mesh& mesh, bool solid, OpenParts open) {
@@ -150,7 +178,6 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget, const
   double best = INFINITY;
   NearestPoint result{};
   const auto compare = [&](std::uint32_t t) {
-    spend(budget, kTriangleWork);
     const Vec3 q = nearest_on_triangle(p, corners(surface.mesh, t));
     const double d = norm_squared(q - p);
     if (d < best) {
@@ -158,31 +185,31 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget, const
       result = {std::sqrt(d), q, t};
     }
   };
-  if (near != nullptr) compare(near->triangle);
-  std::vector<std::pair<double, std::uint32_t>> stack;
-  stack.reserve(kUsualDepth);
-  stack.push_back({0.0, 0u});
-  while (!stack.empty()) {
-    const auto [bound, index] = stack.back();
-    stack.pop_back();
-    spend(budget, kNodeWork);
-    if (!(bound < best)) continue;
-    const BvhNode& node = surface.bvh.nodes[index];
-    if (!node.is_leaf()) {
-      const auto bounded = [&](std::uint32_t child) {
-        return std::pair{box_distance_squared(at, surface.bvh.nodes[child].box), child};
-      };
-      auto farther = bounded(node.first), nearer = bounded(node.first + 1);
-      if (farther.first < nearer.first) std::swap(farther, nearer);
-      stack.push_back(farther);
-      stack.push_back(nearer);
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (box_distance_squared(at, box_at(surface.bvh, surface.mesh, i)) < best) compare(surface.bvh.order[i]);
-    }
+  if (near != nullptr) {
+    spend(budget, kTriangleWork);
+    compare(near->triangle);
   }
+  visit_nearest(surface, best, [&](const Aabb& box) { return box_distance_squared(at, box); }, compare, budget);
   return result;
+}
+
+double line_distance(const Surface& surface, Vec3 u, Vec3 v, double x, double y, Budget* budget) {
+  const auto gap = [](const Aabb& box, Vec3 axis, double at) {
+    const Vec3 middle = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;
+    const double reach = std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y + std::fabs(axis.z) * half.z;
+    return std::fmax(0.0, std::fabs(dot(axis, middle) - at) - reach);
+  };
+  const auto bound = [&](const Aabb& box) {
+    const double across = gap(box, u, x), along = gap(box, v, y);
+    return across * across + along * along;
+  };
+  double best = INFINITY;  // squared
+  visit_nearest(surface, best, bound, [&](std::uint32_t t) {
+    Corners flat = corners(surface.mesh, t);
+    for (Vec3& p : flat) p = {dot(u, p) - x, dot(v, p) - y, 0};
+    best = std::fmin(best, norm_squared(nearest_on_triangle({}, flat)));
+  }, budget);
+  return std::sqrt(best);
 }
 
 }  // namespace satcheck

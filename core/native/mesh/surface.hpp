@@ -93,4 +93,8 @@ struct NearestPoint {
 // be near to p. Throws std::invalid_argument on an empty surface.
 NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget = nullptr, const NearestPoint* near = nullptr);
 
+// The distance of the surface from the line of the points with the coordinates x and y along two unit vectors that are
+// perpendicular to it and to each other. In float64.
+double line_distance(const Surface& surface, Vec3 u, Vec3 v, double x, double y, Budget* budget = nullptr);
+
 }  // namespace satcheck

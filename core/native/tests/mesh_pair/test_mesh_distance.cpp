@@ -100,7 +100,7 @@ void nearest_points() {
 void deviations() {
   Budget unlimited;
   const Surface s = make_surface(unit, true);
-  const auto of = [&](Vec3 low, Vec3 high) { return deviation(box(low, high), s, 1e-4, unlimited); };
+  const auto of = [&](Vec3 low, Vec3 high) { return deviation(box(low, high), {&s}, 1e-4, 0, unlimited); };
   const auto brackets = [](Deviation d, double truth) {
     return d.lower <= truth && truth <= d.upper && d.upper - d.lower < 1.01e-4;
   };
@@ -112,13 +112,19 @@ void deviations() {
 
   // A wall without thickness has no inside.
   const Mesh wall{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-  CHECK(brackets(deviation(wall, s, 1e-4, unlimited), 0));
+  CHECK(brackets(deviation(wall, {&s}, 1e-4, 0, unlimited), 0));
   Mesh notch = box({0, 0, 0}, {4, 1, 1});
   append(notch, box({0, 1, 0}, {1, 3, 1}));
   append(notch, box({3, 1, 0}, {4, 3, 1}));
   // The lid over the notch: farthest from the solid in the middle, 1 from both walls.
   const Mesh lid{{{0, 3, 0}, {4, 3, 0}, {4, 3, 1}, {0, 3, 1}}, {{0, 1, 2}, {0, 2, 3}}};
-  CHECK(brackets(deviation(lid, make_surface(notch, true), 1e-4, unlimited), 1));
+  const Surface notched = make_surface(notch, true);
+  CHECK(brackets(deviation(lid, {&notched}, 1e-4, 0, unlimited), 1));
+  // Two halves of a box, of which neither contains it.
+  const Surface left = make_surface(box({0, 0, 0}, {0.5, 1, 1}), true), right = make_surface(box({0.5, 0, 0}, {1, 1, 0.75}), true);
+  const Deviation missing = deviation(unit, {&left, &right}, 1e-4, 0, unlimited);
+  CHECK(brackets(missing, 0.25));
+  CHECK(missing.narrow && missing.point.z == 1);
 }
 
 void convexity() {

@@ -1,0 +1,291 @@
+"""How faithful the colliders of links are to what is drawn: how far they stick out of it, how far
+they fall short of it, and which openings they close.
+
+The same files are read twice, for visual and for collision geometry. What moves together is
+compared: the bodies of a link, or of the smallest node that has both below.
+
+The core bounds how far one surface reaches out of the union of others (`union_deviation`). Curved
+shapes are replaced by meshes within them, and the bounds are widened by their sag. An open mesh has
+some unknown fill. So the lower bound is that of the mesh with every fill, and the upper one that of
+its surface alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+from typing import NamedTuple
+
+import numpy as np
+from msgspec.structs import replace
+
+from satcheck import core
+from satcheck.audit.bodies import PlacedBodies, UnusableBody, place
+from satcheck.audit.body import PlacedBody, mesh_key
+from satcheck.audit.check import check
+from satcheck.audit.checked_pairs import Progress
+from satcheck.audit.openings import SMALLEST, largest_opening
+from satcheck.audit.settings import Settings
+from satcheck.audit.summary import issues_of_input, tool
+from satcheck.audit.words import counted, is_wrong, worst_first
+from satcheck.core import Mesh, Surface
+from satcheck.core.errors import SatcheckError
+from satcheck.core.mesh_arrays import joined
+from satcheck.core.shape_mesh import mesh_of, sag_of
+from satcheck.core.shapes import is_curved
+from satcheck.core.steps import step
+from satcheck.report.colliders import (
+    ColliderLimits,
+    ColliderPart,
+    CollidersReport,
+    Farthest,
+    Opening,
+    Reach,
+)
+from satcheck.report.report import Report
+from satcheck.report.values import Verdict
+from satcheck.scene import Scene
+
+# The width of an interval: as a share of its lower end, or of the size of the link.
+RATIO = 0.01
+FINEST = 1e-5
+# Steps of a search, each about a nanosecond.
+STEPS = 4_000_000_000
+# Points on the circles of curved shapes; more if their sag makes the interval wide.
+SEGMENTS = (64, 128, 256)
+VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
+_SPENT = "the steps of the search are spent"
+_HOLES = "what fills the holes of a mesh decides"
+_FACETS = "facets replace curved shapes"
+_NO_END = "a half space has no end"
+
+Member = PlacedBody | UnusableBody
+
+
+class _Kinds(NamedTuple):
+    """Of one link."""
+
+    visuals: list[Member]
+    colliders: list[Member]
+
+
+def compare(
+    visual: Scene,
+    collision: Scene,
+    limits: ColliderLimits,
+    settings: Settings,
+    progress: Progress | None = None,
+) -> tuple[CollidersReport, Report]:
+    """Return how faithful the colliders are, and the check of them at rest. The scenes are those of
+    the same files for both geometries. Raises SatcheckError: `units-unknown`, and for several
+    robots."""
+    for scene in (visual, collision):
+        scene.require_one_unit()
+        if len(scene.robots) > 1:
+            raise SatcheckError("bad-argument", "colliders compares the links of one robot")
+    drawn, solid = (_members(place(scene, Settings())) for scene in (visual, collision))
+    grouped, parts = _grouped(drawn, solid), []
+    for number, (name, kinds) in enumerate(grouped.items()):
+        if progress is not None:
+            progress(number, len(grouped))
+        with step(f"comparing {name}, {number + 1} of {len(grouped)}"):
+            parts.append(_part(name, kinds, limits))
+    checked = check(collision, settings, least=0)
+    told = {(issue.code, issue.file, issue.message) for issue in checked.issues}
+    issues = [
+        issue
+        for issue in issues_of_input(visual, settings.accept)
+        if issue.severity != "note" and (issue.code, issue.file, issue.message) not in told
+    ]
+    checked = replace(checked, issues=(*checked.issues, *issues))
+    verdicts = {part.verdict for part in parts} | {checked.summary.verdict}
+    if any(issue.state == "blocking" for issue in issues):
+        verdicts.add("incomplete")
+    verdict = min(verdicts, key=VERDICTS.index)
+    report = CollidersReport(
+        tool=tool(),
+        units=visual.units,
+        settings=limits,
+        verdict=verdict,
+        message="",
+        parts=tuple(sorted(parts, key=_rank)),
+        pairs=checked.summary.pairs,
+        overlaps=tuple(worst_first(filter(is_wrong, checked.findings))),
+        issues=checked.issues,
+    )
+    message = _message(report)
+    summary = replace(checked.summary, verdict=verdict)
+    return replace(report, message=message), replace(checked, summary=summary, message=message)
+
+
+def _message(report: CollidersReport) -> str:
+    wrong = sum(part.verdict != "pass" for part in report.parts)
+    links, pairs = counted(len(report.parts), "link"), counted(len(report.overlaps), "pair")
+    said = f"{wrong} of {links} and {pairs} of colliders fail or are undecided"
+    return f"{report.verdict.upper()}: {said}."
+
+
+def _members(bodies: PlacedBodies) -> Iterator[Member]:
+    for index in range(len(bodies.ids)):
+        yield bodies.placed.get(index) or bodies.unusable[index]
+
+
+def _grouped(drawn: Iterable[Member], solid: Iterable[Member]) -> dict[str, _Kinds]:
+    """What moves together, by name: the bodies of a link. Others are put together by their paths:
+    those below the smallest node that has both kinds below, unless a node in it has, too, and the
+    node itself is no body."""
+    linked: dict[str, _Kinds] = {}
+    loose: dict[str, _Kinds] = {}
+    for kind, members in enumerate((drawn, solid)):
+        for member in members:
+            link = member.body.link
+            group = loose if link is None else linked
+            group.setdefault(link or member.id, _Kinds([], []))[kind].append(member)
+    words = [path.split("/") for path in loose]
+    nodes = {"/".join(each[:k]) for each in words for k in range(1, len(each) + 1)}
+    closed: set[str] = set()  # nodes with a group at or below them
+    for node in sorted(nodes, key=lambda node: (-node.count("/"), node)):
+        below = [path for path in loose if path == node or path.startswith(f"{node}/")]
+        kinds = _Kinds(*(list(chain(*(loose[p][kind] for p in below))) for kind in (0, 1)))
+        if all(kinds) and (node in loose or node not in closed):
+            linked[node] = kinds
+            closed.add(node)
+            for path in below:
+                del loose[path]
+        if node in closed:
+            closed.add(node.rpartition("/")[0])
+    return linked | loose
+
+
+def _rank(part: ColliderPart) -> tuple[float, ...]:
+    reaches = [reach.bounds[1] for reach in (part.out, part.short) if reach is not None]
+    return VERDICTS.index(part.verdict), -max(reaches, default=0.0)
+
+
+def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
+    drawn, solid = (tuple(member.id for member in own) for own in kinds)
+    part = ColliderPart(name=name, visuals=drawn, colliders=solid)
+    lost = [each for each in chain(*kinds) if isinstance(each, UnusableBody)]
+    if lost:
+        reason = f"{lost[0].id} cannot be used: {lost[0].reason}"
+        return replace(part, verdict="incomplete", reason=reason)
+    visuals, colliders = ([b for b in own if isinstance(b, PlacedBody)] for own in kinds)
+    if not colliders:
+        fails = limits.max_short is not None
+        return replace(part, verdict="fail" if fails else "pass", reason="no collider")
+    if not visuals:
+        is_open = limits.max_out is not None
+        return replace(
+            part, verdict="incomplete" if is_open else "pass", reason="no visual geometry"
+        )
+    notes = [
+        f"{what} {body.id} is open: the bounds hold whatever fills its holes"
+        for what, own in (("visual", visuals), ("collider", colliders))
+        for body in own
+        if not body.solid
+    ]
+    out = None if any(b.endless for b in colliders) else _reach(colliders, visuals)
+    short = None if any(b.endless for b in visuals) else _reach(visuals, colliders)
+    part = replace(part, out=out, short=short, notes=tuple(notes))
+    if out is not None and not any(b.endless for b in visuals):
+        part = replace(part, opening=_opening(visuals, colliders, out))
+    return _judged(part, limits)
+
+
+def _judged(part: ColliderPart, limits: ColliderLimits) -> ColliderPart:
+    """Only a proven bound decides."""
+    verdict: Verdict = "pass"
+    reason = None
+    if part.out is None or part.short is None:
+        reason = _NO_END
+    for reach, limit, name in (
+        (part.out, limits.max_out, "sticks out"),
+        (part.short, limits.max_short, "falls short"),
+    ):
+        if limit is None or (reach is not None and reach.bounds[1] <= limit):
+            continue
+        if reach is not None and reach.bounds[0] > limit:
+            return replace(part, verdict="fail", reason=f"it {name} by more than the limit")
+        verdict = "incomplete"
+        why = _NO_END if reach is None else reach.reason or "the limit is within the bounds"
+        reason = f"it is open whether it {name} by more than the limit: {why}"
+    return replace(part, verdict=verdict, reason=reason)
+
+
+def _opening(
+    visuals: Sequence[PlacedBody], colliders: Sequence[PlacedBody], out: Reach
+) -> Opening | None:
+    """A ball that passes is no wider than the colliders stick out, on both sides of its line."""
+    mesh, sag = _joined(visuals, SEGMENTS[0])
+    low, high = map(np.array, mesh.bounds)
+    if out.bounds[1] < SMALLEST * float(np.linalg.norm(high - low)):
+        return None
+    return largest_opening(mesh, sag, [_surface(b, SEGMENTS[0]) for b in colliders if b.solid])
+
+
+def _reach(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody]) -> Reach:
+    """How far the sources reach out of the union of the targets."""
+    same = {_key(body) for body in targets}
+    others = [body for body in sources if _key(body) not in same]
+    if not others:
+        return Reach(bounds=(0.0, 0.0))
+    for segments in SEGMENTS:
+        reach = _measured(others, targets, segments)
+        if reach.reason != _FACETS:
+            break
+    return reach
+
+
+def _measured(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody], segments: int) -> Reach:
+    surfaces = [_surface(body, segments) for body in targets]
+    mesh, sag = _joined(sources, segments)
+    low, high = map(np.array, mesh.bounds)
+    finest = FINEST * float(np.linalg.norm(high - low))
+    lower, upper, point, narrow = core.union_deviation(mesh, surfaces, finest, RATIO, STEPS)
+    reason = None if narrow else _SPENT
+    if not all(surface.solid for surface in surfaces):
+        closed = (s.closed() if not s.solid else (s, []) for s in surfaces)
+        filled = [each for surface, hulls in closed for each in (surface, *hulls)]
+        lower, _, point, narrow = core.union_deviation(mesh, filled, finest, RATIO, STEPS)
+        reason = reason if lower >= (1 - 2 * RATIO) * upper - finest else _HOLES
+    widening = sag + max(_sag(body, segments) for body in targets)
+    if widening > RATIO / 2 * lower:
+        reason = reason or _FACETS
+    bounds = max(lower - widening, 0.0), upper + sag
+    if bounds[0] == 0.0:
+        return Reach(bounds=bounds, reason=reason)
+    own = min(sources, key=lambda body: body.surface().nearest(point)[0])
+    other = min(targets, key=lambda body: body.surface().nearest(point)[0])
+    farthest = Farthest(own.id, point, other.id, other.surface().nearest(point)[1])
+    return Reach(bounds=bounds, farthest=farthest, reason=reason)
+
+
+def _key(body: PlacedBody) -> tuple[object, ...]:
+    """The same for the same geometry in the same place."""
+    own = body.body
+    return own.transform, own.shape or mesh_key(own.file, is_open=own.open)
+
+
+def _sag(body: PlacedBody, segments: int) -> float:
+    shape = body.body.shape
+    return sag_of(shape, segments) * body.largest_stretch if is_curved(shape) else 0.0
+
+
+def _surface(body: PlacedBody, segments: int) -> Surface:
+    """In the world."""
+    if not is_curved(body.body.shape):
+        return body.surface()
+    return Surface(_mesh(body, segments), True)
+
+
+def _mesh(body: PlacedBody, segments: int) -> Mesh:
+    shape, transform = body.body.shape, body.body.transform
+    if not is_curved(shape):
+        return body.mesh
+    mesh = mesh_of(shape, segments)
+    return mesh if transform is None else mesh.transformed(transform)
+
+
+def _joined(bodies: Sequence[PlacedBody], segments: int) -> tuple[Mesh, float]:
+    """One mesh of all, and how far the true surface may be off it."""
+    return joined(_mesh(b, segments) for b in bodies), max(_sag(b, segments) for b in bodies)

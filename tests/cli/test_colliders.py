@@ -1,0 +1,80 @@
+"""`satcheck colliders` as a whole process: its documents, its exit codes, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from satcheck.cli.commands.schema import text
+from tests.cli.process import satcheck
+
+LINK = """<link name="{name}">
+  <visual><geometry><{visual}/></geometry></visual>
+  <collision><geometry><{collider}/></geometry></collision>
+</link>"""
+CYLINDER, BOX = 'cylinder radius="1" length="2"', 'box size="2 2 2"'
+
+
+@pytest.fixture
+def robot(tmp_path: Path) -> str:
+    """A cylinder in a box, which sticks out of it by sqrt(2) - 1; and a mesh that is not there."""
+    path = tmp_path / "robot.urdf"
+    path.write_text(
+        f'<robot name="r">{LINK.format(name="can", visual=CYLINDER, collider=BOX)}</robot>'
+    )
+    return str(path)
+
+
+def test_json_holds_what_its_schema_says(robot: str) -> None:
+    ran = satcheck("colliders", robot, "--format", "json")
+    assert ran.code == 0, ran.err
+    schema = json.loads(text("colliders"))
+    Draft202012Validator(schema).validate(ran.document)
+    (part,) = ran.document["parts"]
+    low, high = part["out"]["bounds"]
+    assert low <= 2**0.5 - 1 <= high
+    assert part["out"]["farthest"]["body"] == "can"
+
+
+@pytest.mark.parametrize(
+    ("options", "code"),
+    [((), 0), (("--max-out", "42cm"), 0), (("--max-out", "0.41"), 1), (("--max-short", "0"), 3)],
+)
+def test_limits_decide_the_exit_code(robot: str, options: tuple[str, ...], code: int) -> None:
+    ran = satcheck("colliders", robot, *options)
+    assert ran.code == code, ran.out
+    assert ran.out.splitlines()[-1].startswith(("PASS", "FAIL", "", "INCOMPLETE")[code])
+
+
+def test_every_format_says_where(robot: str, tmp_path: Path) -> None:
+    names = ("sarif", "xml", "md", "csv", "html", "png", "glb", "txt")
+    files = [tmp_path / f"colliders.{name}" for name in names]
+    outputs = [word for file in files for word in ("-o", str(file))]
+    assert satcheck("colliders", robot, "--max-out", "1cm", *outputs).code == 1
+    sarif = json.loads(files[0].read_text())
+    (result,) = sarif["runs"][0]["results"]
+    assert (result["ruleId"], result["level"]) == ("collider-out", "error")
+    assert "can: sticks out by 0.414" in result["message"]["text"]
+    assert all(file.stat().st_size > 0 for file in files)
+
+
+def test_an_unreadable_mesh_is_an_error_and_the_rest_is_answered(robot: str) -> None:
+    lost = LINK.format(name="lost", visual='mesh filename="gone.obj"', collider=BOX)
+    joint = '<joint name="j" type="fixed"><parent link="can"/><child link="lost"/></joint>'
+    path = Path(robot)
+    path.write_text(path.read_text().replace("</robot>", f"{lost}{joint}</robot>"))
+    ran = satcheck("colliders", robot, "--format", "json")
+    assert ran.code == 2
+    reasons = {part["name"]: part["reason"] for part in ran.document["parts"]}
+    assert reasons["can"] is None
+    assert "cannot be used" in reasons["lost"]
+    assert "gone.obj" in ran.err
+
+
+def test_a_file_without_both_geometries_is_refused() -> None:
+    ran = satcheck("colliders", "box.obj")
+    assert ran.code == 2
+    assert "geometry" in ran.err
