@@ -42,7 +42,7 @@ from satcheck.report.colliders import (
     Opening,
     Reach,
 )
-from satcheck.report.report import Report
+from satcheck.report.report import Issue, Report
 from satcheck.report.values import Verdict
 from satcheck.scene import Scene
 
@@ -97,10 +97,13 @@ def compare(
         for issue in issues_of_input(visual, settings.accept)
         if issue.severity != "note" and (issue.code, issue.file, issue.message) not in told
     ]
+    if not any(map(_has_both, parts)):
+        why = "no link has both visual and collision geometry: nothing was compared"
+        issues.append(Issue("not-measured", "warning", None, None, why, state="blocking"))
     checked = replace(checked, issues=(*checked.issues, *issues))
-    verdicts = {part.verdict for part in parts} | {checked.summary.verdict}
+    verdicts = [checked.summary.verdict, *(part.verdict for part in parts if part.verdict)]
     if any(issue.state == "blocking" for issue in issues):
-        verdicts.add("incomplete")
+        verdicts.append("incomplete")
     verdict = min(verdicts, key=VERDICTS.index)
     report = CollidersReport(
         tool=tool(),
@@ -118,10 +121,16 @@ def compare(
     return replace(report, message=message), replace(checked, summary=summary, message=message)
 
 
+def _has_both(part: ColliderPart) -> bool:
+    return bool(part.visuals and part.colliders)
+
+
 def _message(report: CollidersReport) -> str:
-    wrong = sum(part.verdict != "pass" for part in report.parts)
+    wrong = sum(part.verdict in ("fail", "incomplete") for part in report.parts)
     links, pairs = counted(len(report.parts), "link"), counted(len(report.overlaps), "pair")
     said = f"{wrong} of {links} and {pairs} of colliders fail or are undecided"
+    if bare := sum(not _has_both(part) for part in report.parts):
+        said += f"; {counted(bare, 'link has', 'links have')} only one kind of geometry"
     return f"{report.verdict.upper()}: {said}."
 
 
@@ -159,7 +168,7 @@ def _grouped(drawn: Iterable[Member], solid: Iterable[Member]) -> dict[str, _Kin
 
 def _rank(part: ColliderPart) -> tuple[float, ...]:
     reaches = [reach.bounds[1] for reach in (part.out, part.short) if reach is not None]
-    return VERDICTS.index(part.verdict), -max(reaches, default=0.0)
+    return VERDICTS.index(part.verdict or "pass"), -max(reaches, default=0.0)
 
 
 def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
@@ -172,12 +181,10 @@ def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
     visuals, colliders = ([b for b in own if isinstance(b, PlacedBody)] for own in kinds)
     if not colliders:
         fails = limits.max_short is not None
-        return replace(part, verdict="fail" if fails else "pass", reason="no collider")
+        return replace(part, verdict="fail" if fails else None, reason="no collider")
     if not visuals:
         is_open = limits.max_out is not None
-        return replace(
-            part, verdict="incomplete" if is_open else "pass", reason="no visual geometry"
-        )
+        return replace(part, verdict="incomplete" if is_open else None, reason="no visual geometry")
     notes = [
         f"{what} {body.id} is open: the bounds hold whatever fills its holes"
         for what, own in (("visual", visuals), ("collider", colliders))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from satcheck.report.settings import StatedConfig
 
 # The commands that take options from a config file.
-COMMANDS = ("check", "batch")
+COMMANDS = ("check", "batch", "colliders")
 CONFIG, PROJECT = "satcheck.toml", "pyproject.toml"
 _FILE = "satcheck.config"
 # What a file that was merely found must not do: whoever wrote it may not be the one who calls.
@@ -28,6 +28,7 @@ _BY_HAND = frozenset(("output", "exit-zero", "allow-outside"))
 # Options that decide what passes.
 _DECIDING = (
     *("tolerance", "surface-tolerance", "max-thickness", "max-depth", "clearance", "read"),
+    *("max-out", "max-short"),
     *("accuracy", "fail-on", "allow-open", "accept", "rules", "between", "baseline"),
     *("units", "geometry", "planar", "pose", "state", "exclude"),
 )
@@ -97,7 +98,7 @@ def _as_typed(file: ConfigFile, key: str, option: click.Option) -> Any:
     if any(isinstance(text, bool | list | dict) for text in texts):
         raise file.refused(key, "a text or a number expected")
     typed = [_from_folder(str(text), option, Path(file.path).parent) for text in texts]
-    if option.name == "limit":  # those of the other command are left to it
+    if option.name == "limit":  # those of other commands are left to them
         others = LIMITS.keys() - set(option.type.names)  # type: ignore[attr-defined]
         each = (part for text in typed for part in text.split(","))
         typed = [part for part in each if part.partition("=")[0].strip() not in others]
@@ -124,7 +125,7 @@ def _refuse_found(file: ConfigFile, key: str, option: click.Option, value: Any) 
 
 
 def _refuse_strangers(file: ConfigFile, known: Any) -> None:
-    """Refuse keys of no command. Keys of the other command are left to it."""
+    """Refuse keys of no command. Keys of other commands are left to them."""
     if file.values.keys() <= known:
         return
     from satcheck.scene.words import meant

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from satcheck.report.report import Finding, Issue, PairCounts
+from satcheck.report.settings import StatedConfig
 from satcheck.report.values import Interval, Length, Tool, Value, Vector, Verdict
 
 # The rules of findings about colliders, for formats that list findings about two bodies.
@@ -52,8 +53,9 @@ class ColliderPart(Value, frozen=True, kw_only=True):
     visuals, colliders: ids of bodies. out: the colliders out of the drawn geometry; None: not
     measured. short: the drawn geometry out of the union of the colliders; None: not measured.
     opening: the largest that was found; None: none was found, which does not prove that there is
-    none. verdict: by the limits, and incomplete if they leave it open. reason: of a verdict that is
-    no pass, and why something is not measured. notes: what else has to be known.
+    none. verdict: by the limits, and incomplete if they leave it open; None: only one kind of
+    geometry is there, and no limit asks for the other one. reason: of a verdict that is no pass,
+    and why something is not measured. notes: what else has to be known.
     """
 
     name: str
@@ -62,7 +64,7 @@ class ColliderPart(Value, frozen=True, kw_only=True):
     out: Reach | None = None
     short: Reach | None = None
     opening: Opening | None = None
-    verdict: Verdict = "pass"
+    verdict: Verdict | None = "pass"
     reason: str | None = None
     notes: tuple[str, ...] = ()
 
@@ -77,9 +79,10 @@ class ColliderLimits(Value, frozen=True, kw_only=True):
 class CollidersReport(Value, frozen=True, kw_only=True):
     """How faithful colliders are. World frame, lengths in the units of the files.
 
-    verdict: the worst of all parts and of the check of the colliders. message: says why. parts: the
-    worst first. pairs: of colliders, as a check counts them at rest. overlaps: its findings that
-    fail or are undecided. issues: about the inputs.
+    verdict: the worst of all parts and of the check of the colliders; incomplete if no part has
+    both kinds of geometry. message: says why. parts: the worst first. pairs: of colliders, as a
+    check counts them at rest. overlaps: its findings that fail or are undecided. issues: about the
+    inputs. config: the options that a config file set; None: no config file took part.
     """
 
     schema: Literal["satcheck.colliders/1"] = "satcheck.colliders/1"
@@ -92,3 +95,4 @@ class CollidersReport(Value, frozen=True, kw_only=True):
     pairs: PairCounts
     overlaps: tuple[Finding, ...]
     issues: tuple[Issue, ...]
+    config: StatedConfig | None = None

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from satcheck.audit.colliders import compare
 from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
+from satcheck.cli.config import stated_config
 from satcheck.cli.format_option import FormatChoice, format_option, targets_of
 from satcheck.cli.formats.colliders import as_report, render
 from satcheck.cli.formats.registry import ALL, kind_of, pieces
@@ -50,6 +51,8 @@ FORMATS = FormatChoice(ALL)
 @scene_option.units
 @scene_option.reading()
 @scene_option.package
+@option.no_config
+@option.config
 @option.common
 def command(
     form: str | None,
@@ -70,6 +73,7 @@ def command(
     """
     inputs, targets = Inputs.taken_from(options), targets_of(form, outputs, FORMATS)
     refuse_early(inputs, outputs)
+    config = stated_config(click.get_current_context())
     document = Document()
     visual, collision = (_loaded(inputs, kind) for kind in ("visual", "collision"))
     issues = dict.fromkeys((*visual.issues, *collision.issues))
@@ -80,6 +84,7 @@ def command(
     )
     with Bar("links", "comparing") as bar:
         report, checked = compare(visual, collision, limits, settings_of(options, visual), bar)
+    report = replace(report, config=config)
     scenes = visual, collision
     for name, output in targets:
         shown = partial(_rendered, name, report, checked, scenes, top)

@@ -23,18 +23,20 @@ def command() -> None:
     """The config file: show which options are in effect.
 
     The file is the nearest satcheck.toml, or pyproject.toml with [tool.satcheck], from the current
-    folder upward. It sets options of a check and of `satcheck batch`. `satcheck
-    schema config` prints its JSON Schema.
+    folder upward. It sets options of a check, of `satcheck batch` and of `satcheck colliders`.
+    `satcheck schema config` prints its JSON Schema.
     """
 
 
 @command.command("show", cls=Command, context_settings=_ANY)
-@click.argument("arguments", metavar="[batch] [OPTIONS]", nargs=-1, type=click.UNPROCESSED)
+@click.argument(
+    "arguments", metavar="[batch|colliders] [OPTIONS]", nargs=-1, type=click.UNPROCESSED
+)
 def show(arguments: Sequence[str]) -> None:
     """Print the options in effect, and where each comes from.
 
-    The options are those of `satcheck [OPTIONS]` or `satcheck batch [OPTIONS]`. An option comes
-    from its default, a line of the config file, or the command line.
+    The options are those of `satcheck [OPTIONS]`, or of the named command. An option comes from
+    its default, a line of the config file, or the command line.
     """
     name, rest = COMMANDS[0], list(arguments)
     if rest and rest[0] in COMMANDS:

@@ -60,10 +60,10 @@ def render(report: CollidersReport, checked: Report, page: Page, *, top: int | N
         }
         columns = [Column("link", tuple(part.name for part in shown), named=True)]
         columns += [Column(name, tuple(own), right=True) for name, own in cells.items()]
-        verdicts = tuple(part.verdict for part in shown)
+        verdicts = tuple(part.verdict or "" for part in shown)
         columns.append(Column("verdict", verdicts, graded=True))
         columns.append(Column("", tuple(part.reason or "" for part in shown), folds=True))
-        lines += table(columns, page, [VERDICT_STYLES[verdict] for verdict in verdicts])
+        lines += table(columns, page, [VERDICT_STYLES[verdict or "pass"] for verdict in verdicts])
     lines += fitted_each(hidden(len(report.parts) - len(shown), "link"), page)
     for part in shown[:_TOLD]:
         lines += fitted_each(_places(part, unit), page)
@@ -123,7 +123,9 @@ def as_report(
             if reach is not None and (at := reach.farthest) is not None:
                 said = _sentence(part, rule, reach, at, unit_of(report.units))
                 findings.append(replace(_finding(rule, reach, at, most, names), message=said))
-    open_links = (part for part in report.parts if part.out is None and part.verdict != "pass")
+    open_links = (
+        part for part in report.parts if part.out is None and part.verdict in ("fail", "incomplete")
+    )
     issues = (
         Issue(
             "not-measured",

@@ -467,14 +467,14 @@ def test_only_a_proven_bound_decides(
 
 def test_a_link_without_colliders_falls_short_by_everything(tmp_path: Path) -> None:
     path = urdf(tmp_path, Case([box(1, 1, 1)], [], 0, 0))
-    assert (only_part(path).verdict, only_part(path).reason) == ("pass", "no collider")
-    assert only_part(path, max_out=1.0).verdict == "pass"
+    assert (only_part(path).verdict, only_part(path).reason) == (None, "no collider")
+    assert only_part(path, max_out=1.0).verdict is None
     assert only_part(path, max_short=1.0).verdict == "fail"
 
 
 def test_a_link_that_is_not_drawn_passes_no_limit(tmp_path: Path) -> None:
     path = urdf(tmp_path, Case([], [box(1, 1, 1)], 0, 0))
-    assert only_part(path).verdict == "pass"
+    assert only_part(path).verdict is None
     assert only_part(path, max_out=1.0).verdict == "incomplete"
 
 

@@ -78,3 +78,24 @@ def test_a_file_without_both_geometries_is_refused() -> None:
     ran = satcheck("colliders", "box.obj")
     assert ran.code == 2
     assert "geometry" in ran.err
+
+
+def test_where_nothing_is_compared_nothing_passes(tmp_path: Path) -> None:
+    bare = tmp_path / "bare.urdf"
+    bare.write_text('<robot name="r"><link name="can"><collision><geometry><box size="1 1 1"/>')
+    bare.write_text(f"{bare.read_text()}</geometry></collision></link></robot>")
+    ran = satcheck("colliders", str(bare), "--format", "json")
+    assert (ran.code, ran.document["verdict"]) == (3, "incomplete")
+    assert ran.document["parts"][0]["verdict"] is None
+    junit = tmp_path / "junit.xml"
+    assert satcheck("colliders", str(bare), "-o", str(junit)).code == 3
+    assert "nothing was compared" in junit.read_text()
+
+
+def test_a_config_file_states_the_limits(robot: str, tmp_path: Path) -> None:
+    config = tmp_path / "limits.toml"
+    config.write_text('max-out = "10mm"\nmax-depth = "1mm"\n')  # the other one is about a check
+    ran = satcheck("colliders", robot, "--config", str(config), "--format", "json")
+    assert ran.code == 1
+    assert ran.document["settings"]["max_out"] == 0.01
+    assert ran.document["config"]["options"] == {"max-out": "10mm"}
