@@ -54,13 +54,14 @@ def enclosing_parts(
         off[number] = off[number] if whole else cut_error
     grown = []
     for part, own, depth in zip(parts, corners, off, strict=True):
-        deadline.check()
         points = np.unique(np.array(own).reshape(-1, 3), axis=0)
-        grown.append(_grown(part, points, vertices, depth))
+        grown.append(_grown(part, points, vertices, depth, deadline))
     return tuple(grown)
 
 
-def _grown(part: Polytope, corners: Floats, vertices: int | None, off: float) -> Polytope:
+def _grown(
+    part: Polytope, corners: Floats, vertices: int | None, off: float, deadline: Deadline
+) -> Polytope:
     """The part, grown until it contains points (n, 3): the smallest of those that are proven to do
     so. off: how deep the points have to lie in it."""
     within = np.asarray(part.vertices)
@@ -69,13 +70,13 @@ def _grown(part: Polytope, corners: Floats, vertices: int | None, off: float) ->
         start = _rounded(simplified(target, vertices).vertices)
     else:
         start = _rounded(within)
-    if _contains(start, corners, off):
+    if _contains(start, corners, off, deadline):
         return start
     starts = [start]
     if vertices is None or vertices >= _BOX:
         starts += [_rounded(box) for box in _boxes(target)]
     margin = _MARGIN * float(np.abs(target).max()) + off
-    proven = [_proven(each, target, corners, off, margin) for each in starts]
+    proven = [_proven(each, target, corners, off, margin, deadline) for each in starts]
     smallest = min(filter(None, proven), key=volume, default=None)
     if smallest is None:
         raise DecompositionError(
@@ -86,14 +87,19 @@ def _grown(part: Polytope, corners: Floats, vertices: int | None, off: float) ->
 
 
 def _proven(
-    hull: Polytope, target: Floats, corners: Floats, off: float, margin: float
+    hull: Polytope,
+    target: Floats,
+    corners: Floats,
+    off: float,
+    margin: float,
+    deadline: Deadline,
 ) -> Polytope | None:
     """The hull, grown; None: its numbers are too coarse."""
     for number in range(_ROUNDS):
         if hull.dimension < 3:
             return None
         hull = _rounded(_pushed(hull, target, margin * 2.0**number))
-        if _contains(hull, corners, off):
+        if _contains(hull, corners, off, deadline):
             return hull
     return None
 
@@ -140,7 +146,7 @@ def _pushed(hull: Polytope, target: Floats, margin: float) -> Floats:
     return points + moves
 
 
-def _contains(hull: Polytope, points: Floats, off: float) -> bool:
+def _contains(hull: Polytope, points: Floats, off: float, deadline: Deadline) -> bool:
     """Return whether it is proven that the points lie in the hull: deeper than `off`, if that is
     not 0."""
     if hull.dimension < 3:
@@ -150,6 +156,7 @@ def _contains(hull: Polytope, points: Floats, off: float) -> bool:
         max(np.abs(hull.vertices).max(), np.abs(points).max(initial=0.0))
     )
     for x, y, z in points.tolist():
+        deadline.check()
         around, depth = solid.winding_number((x, y, z)), solid.nearest((x, y, z))[0]
         is_on_it = around is None and depth == 0.0 and off == 0.0
         if not is_on_it and not (around and (depth > deep or off == 0.0)):
