@@ -270,8 +270,8 @@ def _warnings(health: MeshHealth, inspection: Inspection) -> list[tuple[str, str
         outcome = "repaired" if turned and health.solid else "not repaired"
         warnings.append(("misoriented", f"inconsistent face orientation ({edges}): {outcome}"))
     if doubtful:
-        parts = "a part faces inward, and counts as solid; what faces outward in it"
-        warnings.append(("doubtful-cavity", f"{parts} may be solid or a cavity"))
+        parts = "what faces outward in a part that faces inward, or two cavities that cross"
+        warnings.append(("doubtful-cavity", f"{parts}, may be solid or a cavity"))
     elif health.inside_out:
         what = "the mesh" if health.components == 1 else "at least one part of the mesh"
         volume = f" (volume {health.volume:g})" if health.volume else ""

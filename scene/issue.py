@@ -95,7 +95,7 @@ _ALL = (
     Code(
         "doubtful-cavity",
         "warning",
-        "What faces outward in a part that faces inward may be solid or a cavity.",
+        "What faces outward in a part that faces inward, or cavities that cross, may be solid.",
     ),
     Code("double-sided", "warning", "Each face exists in both orientations: the mesh is a sheet."),
     Code("flat", "warning", "All triangles lie in one plane: the mesh has no volume."),

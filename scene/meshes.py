@@ -113,6 +113,9 @@ def scene_of_meshes(
         meshes, placed = _nodes_of(meshes)
         poses = placed | dict(poses or {})
     poses = poses or {}
+    for id_ in meshes:
+        if not isinstance(id_, str):
+            raise refused(f"meshes: an id is a text, got {id_!r}")
     if unknown := sorted(poses.keys() - meshes.keys()):
         raise SatcheckError("bad-argument", f"poses: no mesh has the id {unknown[0]!r}")
     bodies = tuple(_body(id_, mesh, poses.get(id_)) for id_, mesh in meshes.items())

@@ -188,12 +188,16 @@ def _nearest(pair: MovingPair, impact: Impact) -> Worst | None:
 
 
 def _as_placed(pair: MovingPair, worst: Worst, clearance: float) -> Worst:
-    """The worst pose, nearer than the clearance if it is so as a pose at rest, which is exact."""
+    """The worst pose. If it, or an end of the motion, is nearer than the clearance as a pose at
+    rest, which is exact, it is that one."""
     try:
-        is_near = pair.found_at(worst.time, clearance).relation == "near"
+        times = (worst.time, 0.0, 1.0)
+        near = next((t for t in times if pair.found_at(t, clearance).relation == "near"), None)
     except Unanswerable:
         return worst
-    return replace(worst, upper=math.nextafter(clearance, 0.0)) if is_near else worst
+    if near is None:
+        return worst
+    return replace(worst, time=near, upper=math.nextafter(clearance, 0.0))
 
 
 class Movers:

@@ -113,8 +113,8 @@ def open_hole(pair: Pair, hole: core.OpenHole) -> str:
     where = f"in a box {hole.diameter:.3g} from corner to corner at ({at})"
     if hole.doubtful:
         return (
-            f"a part of {body.id}, {where}, meets {other.id}: it faces outward within one that "
-            "faces inward, and may be solid or a cavity"
+            f"a part of {body.id}, {where}, meets {other.id}, and may be solid or a cavity: it "
+            "faces outward within one that faces inward, or crosses another cavity"
         )
     which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
     return f"{which} of {body.id}, {where}, meets {other.id}: its fill decides the relation"

@@ -213,6 +213,12 @@ def test_a_pose_for_no_mesh_is_refused() -> None:
         scene_of_meshes({"cube": CUBE}, {"ball": np.eye(4)})
 
 
+def test_an_id_that_is_no_text_is_refused() -> None:
+    meshes: Any = {0: CUBE, "b": CUBE}
+    with pytest.raises(SatcheckError, match="an id is a text, got 0"):
+        scene_of_meshes(meshes)
+
+
 def test_a_long_chain_of_float32_rotations_is_rigid() -> None:
     angle = np.float32(0.3)
     turn = np.eye(4, dtype="float32")

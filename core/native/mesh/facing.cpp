@@ -121,11 +121,14 @@ class Nesting {
     }
   }
 
-  // Whether the patch is inside, or on the surface of, other solids that it does not cross. If two such patches face inward
-  // and cross, neither is: winding numbers would cancel in both.
-  bool is_nested(std::uint32_t patch) {
-    return is_within(patch) && !std::any_of(crossed(patch).begin(), crossed(patch).end(), [&](std::uint32_t other) {
-      return patches_[other].volume < 0 && is_within(other);
+  // Whether the patch is inside, or on the surface of, other solids that it does not cross.
+  bool is_within(std::uint32_t patch) { return winding_within(patch, solids_) != 0; }
+
+  // Whether the patch faces inward within others, and crosses another one that does. In both, winding numbers may cancel.
+  bool is_crossed_wall(std::uint32_t patch) {
+    const auto is_wall = [&](std::uint32_t p) { return patches_[p].solid && patches_[p].volume < 0 && is_within(p); };
+    return is_wall(patch) && std::any_of(crossed(patch).begin(), crossed(patch).end(), [&](std::uint32_t other) {
+      return patches_[other].group != patches_[patch].group && is_wall(other);
     });
   }
 
@@ -167,8 +170,6 @@ class Nesting {
   }
 
  private:
-  bool is_within(std::uint32_t patch) { return winding_within(patch, solids_) != 0; }
-
   // The winding number around the patch of those solids that it does not cross.
   std::optional<int> winding_within(std::uint32_t patch, std::vector<std::uint32_t> solids) {
     std::set<std::uint32_t> groups;
@@ -247,7 +248,7 @@ bool has_to_turn(const Solid& solid, const std::vector<Patch>& patches, Nesting&
   const Patch& first = patches[solid[0]];
   if (!(first.volume < 0) || (first.open && !first.shell)) return false;
   if (first.open) return !nesting.crossed(solid[0]).empty() && !nesting.ends_near_another(solid[0]);
-  return !std::all_of(solid.begin(), solid.end(), [&](std::uint32_t p) { return nesting.is_nested(p); });
+  return !std::all_of(solid.begin(), solid.end(), [&](std::uint32_t p) { return nesting.is_within(p); });
 }
 
 // Turns solids that face inward, with all that lies within them. Returns the doubtful patches.
@@ -269,6 +270,9 @@ std::vector<std::uint32_t> turn_solids(Mesh& mesh, std::vector<Patch>& patches, 
     if (closed.empty() || is_in(turned, solid[0]) || (patches[solid[0]].open && !patches[solid[0]].shell)) continue;
     const auto turns = [&](std::uint32_t p) { return nesting.turns_along(p, closed); };
     if (std::all_of(solid.begin(), solid.end(), turns)) along.insert(along.end(), solid.begin(), solid.end());
+  }
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    if (!is_in(turned, p) && nesting.is_crossed_wall(p)) doubtful.push_back(p);
   }
   for (const std::uint32_t p : turned) flip(mesh, patches[p]);
   for (const std::uint32_t p : along) flip(mesh, patches[p]);

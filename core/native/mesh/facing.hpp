@@ -12,7 +12,8 @@ namespace satcheck {
 
 // How the parts of a mesh face whose components have one winding each. inward: the triangles to turn so that it faces
 // outward. doubtful: those of each part that faces outward within one that faces inward. It is solid if that one is a room
-// around it, and the wall of a cavity if that one is a solid that is inside out.
+// around it, and the wall of a cavity if that one is a solid that is inside out. And those of cavities that cross: in both
+// winding numbers may cancel.
 struct Facing {
   std::vector<std::uint32_t> inward;
   std::vector<std::vector<std::uint32_t>> doubtful;

@@ -57,6 +57,16 @@ def test_the_clearance_holds_on_the_way(body):
     assert (kept.relation, kept.worst, kept.distance_at_least) == ("separated", None, 0.25)
 
 
+def test_the_clearance_holds_at_the_end_to_the_last_bit():
+    """The gap at the end is smaller than the clearance by 1.8e-15, less than the search for the
+    nearest pose can tell: it ends at 0.97."""
+    at = {0.0: 0.0, 2.0: 0.5, 4.0: 1.0, 6.0: 1.0}
+    points, faces = bracket()
+    body = [(at[x], at[y], at[z]) for x, y, z in points], faces
+    path, wall = Translation((-2.0000000000000018, 0.0, 0.0)), moved(body, -1.25, 0, 0)
+    assert swept(moved(body, 2, 0, 0), path, wall, clearance=0.25).relation == "near"
+
+
 @pytest.mark.parametrize("body", [unit_box(), moved(bracket(), -5, -5, 0)])
 def test_the_nearest_pose_is_not_searched_unless_asked(body, monkeypatch):
     """Neither of bodies that stay apart, nor of bodies that touch."""

@@ -178,7 +178,7 @@ void compounds() {
 void bolts() {
   for (int round = 0; round < 16; ++round) {
     const bool tank_inward = round & 1, wall_inward = round & 2, bolt_inward = round & 4, outside = round & 8;
-    if (bolt_inward && !outside) continue;  // two parts that face inward in the tank and cross: all counts as material
+    if (bolt_inward && !outside) continue;  // as in crossed_walls()
     const auto wound = [](const Mesh& mesh, bool inward) { return inward ? reversed(mesh) : mesh; };
     Mesh all = box({20, 0, 0}, {60, 40, 40});  // so that most of the volume faces outward
     append(all, wound(box({-5, -5, -5}, {5, 5, 5}), tank_inward));
@@ -193,6 +193,40 @@ void bolts() {
     CHECK((at({0, 0.3, 0.1}) != 0) == (tank_inward == wall_inward));
     CHECK((at({6, 0.3, 0.1}) != 0) == outside);
   }
+}
+
+// Two hollow solids of which the walls cross: what lies in both walls may be empty or not, all else is known.
+void crossed_walls() {
+  Mesh all = box({0, 0, 0}, {10, 10, 10});
+  append(all, reversed(box({1, 1, 1}, {9, 9, 9})));
+  append(all, box({5, 2, 2}, {20, 8, 8}));
+  append(all, reversed(box({6, 3, 3}, {19, 7, 7})));
+  const Mesh oriented = orient(all);
+  CHECK(oriented.triangles == weld(all).triangles && facing_of(oriented).inward.empty());
+  CHECK(facing_of(oriented).doubtful.size() == 2);
+  const Surface surface = make_surface(oriented, false);
+  const auto relation = [&](Vec3 low, double size) {
+    return mesh_relation(surface, make_surface(box(low, low + Vec3{size, size, size}), true));
+  };
+  for (const Vec3 at : {Vec3{2, 2, 2}, Vec3{7, 4, 4}, Vec3{12, 4, 4}}) CHECK(!relation(at, 0.5).proven);
+  const MeshRelation in_outer = relation({0.25, 4, 4}, 0.5), beyond = relation({25, 4, 4}, 0.5);
+  CHECK(in_outer.proven && in_outer.relation == Relation::contains);
+  CHECK(beyond.proven && beyond.relation == Relation::separated);
+}
+
+// Half of a cavity is filled. What fills it has corners in common with the wall, and crosses the wall at others, as if
+// rounded: the other half stays empty.
+void half_filled() {
+  Mesh all = box({-5, -5, -5}, {5, 5, 5});
+  append(all, reversed(box({-4, -4, -4}, {4, 4, 4})));
+  Mesh fill = box({-4, -4, -4}, {4, 4, 0});
+  for (Vec3& p : fill.vertices) {
+    if (p.z == 0) p.x *= 1 + 1e-12, p.y *= 1 - 1e-12;
+  }
+  append(all, fill);
+  const Surface solid = make_surface(orient(all), false);
+  CHECK(solid.solid);
+  CHECK(winding_number(solid, {0.3, 0.1, 2}) == 0 && winding_number(solid, {0.3, 0.1, -2}) == 1);
 }
 
 // All faces of a box lie within faces of the boxes beside it, which do not say what lies around it.
@@ -250,6 +284,8 @@ UNIT(orient) {
   rooms();
   compounds();
   bolts();
+  crossed_walls();
+  half_filled();
   between_others();
   one_sided();
   copies();
