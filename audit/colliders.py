@@ -42,8 +42,9 @@ from satcheck.report.colliders import (
     Opening,
     Reach,
 )
-from satcheck.report.report import Issue, Report
+from satcheck.report.report import NOTHING_TO_CHECK, Issue, Report
 from satcheck.report.values import Verdict
+from satcheck.report.verdict import summarise
 from satcheck.scene import Scene
 
 # The width of an interval: as a share of its lower end, or of the size of the link.
@@ -90,7 +91,7 @@ def compare(
             progress(number, len(grouped))
         with step(f"comparing {name}, {number + 1} of {len(grouped)}"):
             parts.append(_part(name, kinds, limits))
-    checked = check(collision, settings, least=0)
+    checked = _with_no_pairs_needed(check(collision, settings, least=0))
     told = {(issue.code, issue.file, issue.message) for issue in checked.issues}
     issues = [
         issue
@@ -121,6 +122,16 @@ def compare(
     return replace(report, message=message), replace(checked, summary=summary, message=message)
 
 
+def _with_no_pairs_needed(checked: Report) -> Report:
+    """The check, which passes also if all colliders are in one link, or may touch."""
+    issues = tuple(issue for issue in checked.issues if issue.code != NOTHING_TO_CHECK)
+    checked = replace(checked, issues=issues)
+    summary = summarise(checked)
+    if not (summary.pairs.asked or any(issue.state == "blocking" for issue in issues)):
+        summary = replace(summary, verdict="pass")
+    return replace(checked, summary=summary)
+
+
 def _has_both(part: ColliderPart) -> bool:
     return bool(part.visuals and part.colliders)
 
@@ -129,6 +140,9 @@ def _message(report: CollidersReport) -> str:
     wrong = sum(part.verdict in ("fail", "incomplete") for part in report.parts)
     links, pairs = counted(len(report.parts), "link"), counted(len(report.overlaps), "pair")
     said = f"{wrong} of {links} and {pairs} of colliders fail or are undecided"
+    if not (wrong or report.overlaps):
+        limited = report.settings.max_out is not None or report.settings.max_short is not None
+        said = f"{'all links keep the limits, and ' if limited else ''}no colliders overlap"
     if bare := sum(not _has_both(part) for part in report.parts):
         said += f"; {counted(bare, 'link has', 'links have')} only one kind of geometry"
     return f"{report.verdict.upper()}: {said}."

@@ -25,10 +25,15 @@ _UNSAFE = re.compile(r"[^A-Za-z0-9_.-]")  # in names of files, on some systems
 
 def in_links(scene: Scene) -> list[Body]:
     """Return the meshes of a robot, each in the frame of its link. Raises click.UsageError unless
-    the scene is one robot."""
+    the scene is one robot with a mesh."""
     robot = _only_robot(scene)
     offsets = {body.id: None if body.offset == IDENTITY else body.offset for body in robot.bodies}
-    meshes = (body for body in scene.bodies if body.shape is None)
+    meshes = [body for body in scene.bodies if body.shape is None]
+    if not (meshes or scene.unreadable):
+        raise click.UsageError(
+            "no collider of this robot is a mesh, and other shapes are convex already; --geometry "
+            "visual splits what is drawn"
+        )
     return [replace(body, transform=offsets[body.id]) for body in meshes]
 
 

@@ -32,7 +32,7 @@ FORMATS = FormatChoice(ALL)
 
 
 @click.command("colliders", cls=Command, context_settings=HELP_NAMES)
-@option.paths("FILE")
+@option.paths("FILE ...")
 @click.option(
     "--max-out",
     type=length,
@@ -64,14 +64,17 @@ def command(
 ) -> int:
     """Show how faithful the colliders of links are to what is drawn.
 
-    FILE is a robot, a USD or a glTF file with visual and collision geometry. For each link proven
-    bounds say how far the colliders stick out of what is drawn, and how far they fall short of it,
-    and where; and which openings they close. The colliders are checked against each other at rest.
+    FILE is a robot (with its SRDF), a USD or a glTF file with visual and collision geometry. For
+    each link proven bounds say how far the colliders stick out of what is drawn, and how far they
+    fall short of it, and where; and which openings they close. The colliders are checked against
+    each other at rest.
 
     Exit codes: 0, colliders keep the limits, and none overlap; 1, some do not; 2, wrong usage, an
     unreadable input, or an internal error; 3, that is open.
     """
     inputs, targets = Inputs.taken_from(options), targets_of(form, outputs, FORMATS)
+    if any(name == "csv" for name, _ in targets):
+        raise click.UsageError("CSV has rows for pairs; JSON has the figures of links")
     refuse_early(inputs, outputs)
     config = stated_config(click.get_current_context())
     document = Document()

@@ -46,7 +46,7 @@ _Split = tuple[Body, Decomposition | SatcheckError]
 
 
 @click.command("decompose", cls=Command, context_settings=HELP_NAMES)
-@option.paths("MESH")
+@option.paths("MESH ...")
 @click.option(
     "--threshold",
     type=option.Number(0, 1, min_open=True),

@@ -62,7 +62,7 @@ def render(report: CollidersReport, checked: Report, page: Page, *, top: int | N
         columns += [Column(name, tuple(own), right=True) for name, own in cells.items()]
         verdicts = tuple(part.verdict or "" for part in shown)
         columns.append(Column("verdict", verdicts, graded=True))
-        columns.append(Column("", tuple(part.reason or "" for part in shown), folds=True))
+        columns.append(Column("reason", tuple(part.reason or "" for part in shown), folds=True))
         lines += table(columns, page, [VERDICT_STYLES[verdict or "pass"] for verdict in verdicts])
     lines += fitted_each(hidden(len(report.parts) - len(shown), "link"), page)
     for part in shown[:_TOLD]:
@@ -94,15 +94,16 @@ def _places(part: ColliderPart, unit: str | None) -> Iterator[str]:
     for rule, reach in ((STICKS_OUT, part.out), (FALLS_SHORT, part.short)):
         if reach is not None and reach.farthest is not None:
             yield _sentence(part, rule, reach, reach.farthest, unit)
-    if (opening := part.opening) is not None:
-        wide = with_unit(at_least(opening.diameter), unit)
-        at, way = vector(opening.point), vector(opening.direction)
-        yield f"{part.name}: closes an opening {wide} wide at {at}, along {way}."
 
 
 def _sentence(part: ColliderPart, rule: str, reach: Reach, at: Farthest, unit: str | None) -> str:
     said = "sticks out" if rule == STICKS_OUT else "falls short"
-    return f"{part.name}: {said} by {figure(reach.bounds, unit)} at {vector(at.point)}."
+    said = f"{part.name}: {said} by {figure(reach.bounds, unit)} at {vector(at.point)}"
+    if rule == FALLS_SHORT or (opening := part.opening) is None:
+        return f"{said}."
+    wide = with_unit(at_least(opening.diameter), unit)
+    where, way = vector(opening.point), vector(opening.direction)
+    return f"{said}; closes an opening at least {wide} wide at {where}, along {way}."
 
 
 def as_report(

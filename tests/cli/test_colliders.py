@@ -50,7 +50,7 @@ def test_limits_decide_the_exit_code(robot: str, options: tuple[str, ...], code:
 
 
 def test_every_format_says_where(robot: str, tmp_path: Path) -> None:
-    names = ("sarif", "xml", "md", "csv", "html", "png", "glb", "txt")
+    names = ("sarif", "xml", "md", "html", "png", "glb", "txt")
     files = [tmp_path / f"colliders.{name}" for name in names]
     outputs = [word for file in files for word in ("-o", str(file))]
     assert satcheck("colliders", robot, "--max-out", "1cm", *outputs).code == 1
@@ -59,6 +59,7 @@ def test_every_format_says_where(robot: str, tmp_path: Path) -> None:
     assert (result["ruleId"], result["level"]) == ("collider-out", "error")
     assert "can: sticks out by 0.414" in result["message"]["text"]
     assert all(file.stat().st_size > 0 for file in files)
+    assert satcheck("colliders", robot, "--format", "csv").code == 2
 
 
 def test_an_unreadable_mesh_is_an_error_and_the_rest_is_answered(robot: str) -> None:
@@ -99,3 +100,22 @@ def test_a_config_file_states_the_limits(robot: str, tmp_path: Path) -> None:
     assert ran.code == 1
     assert ran.document["settings"]["max_out"] == 0.01
     assert ran.document["config"]["options"] == {"max-out": "10mm"}
+
+
+def test_colliders_of_one_link_need_no_pair_to_check(robot: str) -> None:
+    path, second = Path(robot), f"<collision><geometry><{BOX}/></geometry></collision></link>"
+    path.write_text(path.read_text().replace("</link>", second))
+    ran = satcheck("colliders", robot, "--max-out", "42cm")
+    assert ran.code == 0, ran.out
+    assert ran.out.splitlines()[-1] == (
+        "PASS: all links keep the limits, and no colliders overlap."
+    )
+
+
+def test_the_opening_is_told_where_the_collider_sticks_out(tmp_path: Path) -> None:
+    sarif = tmp_path / "props.sarif"
+    assert satcheck("colliders", "props.urdf", "-o", str(sarif)).code == 0
+    texts = [
+        each["message"]["text"] for each in json.loads(sarif.read_text())["runs"][0]["results"]
+    ]
+    assert any("closes an opening at least 0.234 m wide" in each for each in texts)
