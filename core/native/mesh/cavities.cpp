@@ -1,7 +1,6 @@
 #include "mesh/cavities.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -55,27 +54,27 @@ class Cavities {
     return signed_volume(mesh_.vertices, triangles);
   }
 
-  // As brackets are matched. solids: of the walls farther out.
+  // As brackets are matched: the innermost solid around the wall that no wall around it belongs to. solids: of the walls
+  // farther out.
   std::optional<std::uint32_t> solid_of(std::uint32_t wall, const std::vector<std::uint32_t>& solids) {
-    std::optional<std::uint32_t> at = next_around(wall);
-    while (at && volumes_[*at] < 0) at = solids[*at] == *at ? std::nullopt : next_around(solids[*at]);
-    const auto is_wall = [&](std::uint32_t c) { return volumes_[c] < 0; };
-    return std::any_of(crossed(wall).begin(), crossed(wall).end(), is_wall) ? std::nullopt : at;
-  }
-
-  // The innermost component around this one has the others around it too, but for those that it crosses.
-  std::optional<std::uint32_t> next_around(std::uint32_t component) {
-    const Around around = around_of(component);
-    if (!around) return std::nullopt;
+    const Around around = around_of(wall);
+    std::set<std::uint32_t> closed;
+    for (const std::uint32_t c : *around) {
+      if (volumes_[c] >= 0) continue;
+      if (solids[c] == c) return std::nullopt;
+      closed.insert(solids[c]);
+    }
+    std::optional<std::uint32_t> solid;
     for (const std::uint32_t c : *around) {
       spend(budget_, kListedWork * around->size());
-      if (const Around& beyond = around_of(c); !beyond || beyond->size() >= around->size()) continue;
-      std::vector<std::uint32_t> others;
-      std::set_difference(around->begin(), around->end(), crossed(c).begin(), crossed(c).end(), std::back_inserter(others));
-      std::erase(others, c);
-      if (around_of(c) == others) return c;
+      if (volumes_[c] > 0 && !closed.contains(c) && (!solid || depth_of(c) > depth_of(*solid))) solid = c;
     }
-    return std::nullopt;
+    return solid;
+  }
+
+  std::size_t depth_of(std::uint32_t component) {
+    const Around& around = around_of(component);
+    return around ? around->size() : 0;
   }
 
   const std::vector<std::uint32_t>& crossed(std::uint32_t component) {

@@ -16,8 +16,8 @@ std::vector<std::uint32_t> crossed_sets(const Mesh& mesh, const Bvh& bvh, const 
                                         const std::vector<std::uint32_t>& members, Budget* budget);
 
 // For each component the one that it belongs to: the solid whose cavity it bounds, else itself. A wall is closed, faces
-// inward, crosses no other wall, and lies within an outward component that it does not cross; the walls between them are
-// those of other solids between them. Signs are exact; what they leave open is no wall.
+// inward, and lies within an outward component that it does not cross; the walls between them are those of other solids
+// between them. Signs are exact; what they leave open is no wall.
 std::vector<std::uint32_t> solids_of(const Mesh& welded, const EdgeTable& edges, const Labels& components,
                                      Budget* budget = nullptr);
 

@@ -1,6 +1,7 @@
 // Topology numbers and repairs of boxes that are put together and broken in known ways.
 #include "mesh/facing.hpp"
 #include "mesh/orient.hpp"
+#include "mesh/surface.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -184,6 +185,16 @@ void components_and_transforms() {
   append(crossing, box({1, 1, 1}, {7, 7, 9}));
   append(crossing, reversed(box({3, 3, 3}, {4, 4, 4})));
   CHECK(split_components(crossing).size() == 2);
+  // Each wall belongs to its own solid, also if the solids cross, with walls that cross or lie in each other.
+  for (const Mesh& second : {box({6, 3, 3}, {19, 7, 7}), box({6, 4, 4}, {8, 6, 6})}) {
+    Mesh tanks = box({0, 0, 0}, {10, 10, 10});
+    append(tanks, reversed(box({1, 1, 1}, {9, 9, 9})));
+    append(tanks, box({5, 2, 2}, {20, 8, 8}));
+    append(tanks, reversed(second));
+    const std::vector<Mesh> split = split_components(tanks);
+    CHECK(split.size() == 2);
+    for (const Mesh& tank : split) CHECK(tank.triangles.size() == 24 && make_surface(tank, false).solid);
+  }
 
   const Mesh mirrored = transform(unit, {-2, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
   CHECK(measure_topology(mirrored).volume == 2);
