@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from satcheck.cli import exit_codes, option, scene_option
 from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.format_option import deliver, form_option, plain_call, product_and_report
 from satcheck.cli.formats.tables import Column, fitted_each, joined, table
-from satcheck.cli.inputs import load
+from satcheck.cli.inputs import Inputs, load
 from satcheck.cli.output import Page, harmless, issue_line, talk, write_file
 from satcheck.cli.progress import counting
 from satcheck.cli.robot_parts import URDF, in_links, write_urdf
@@ -34,7 +35,7 @@ from satcheck.report.decomposition import (
     Remark,
 )
 from satcheck.report.report import Issue
-from satcheck.scene import Body, written_meshes
+from satcheck.scene import Body, Scene, written_meshes
 from satcheck.scene.units import unit_of
 
 _FILES = ", ".join(written_meshes.FORMATS)
@@ -143,34 +144,45 @@ def command(
     ending = "" if parts_out is None else parts_out.suffix.lower()
     bodies = splitter.split_each(in_links(scene) if ending == URDF else scene.bodies)
     parts = [part for each in bodies for part in _named(*each)]
-    if parts_out is not None and parts and ending == URDF:
-        named = {body.id: list(_named(body, result)) for body, result in bodies}
-        write_urdf(parts_out, scene, named, inputs)
-    elif parts_out is not None and parts:
-        write_file(parts_out, written_meshes.written(parts, ending, scene.units))
+    if parts_out is not None and parts:
+        _write(parts_out, bodies, scene, inputs)
+    bounds: dict[str, Any] = {
+        "max_parts": limits.parts,
+        "max_vertices": limits.vertices,
+        "enclose": enclose,
+    }
+    settings = DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds, **bounds)
     report = DecompositionReport(
         tool=tool(),
         units=scene.units,
-        settings=DecompositionOptions(
-            threshold=threshold,
-            seed=seed,
-            max_parts=limits.parts,
-            max_vertices=limits.vertices,
-            enclose=enclose,
-            seconds=seconds,
-        ),
+        settings=settings,
         output=None if parts_out is None else parts_out.as_posix(),
         rounding=written_meshes.rounding(parts, ending) if ending else None,
         bodies=tuple(_body_report(*each, enclose or None) for each in bodies),
         issues=tuple(Issue(*astuple(issue)) for issue in scene.issues),
     )
-    failures = [(each.id, each.failure) for each in report.bodies if each.failure is not None]
-    for id_, failure in failures:
-        talk(harmless(f"satcheck: error: {id_}: {failure.message} [{failure.code}]"))
+    has_failed = _tell_failures(report)
     deliver(document, report, form, output, partial(_table, report))
     if scene.unreadable or not parts:
         return exit_codes.ERROR
-    return exit_codes.INCOMPLETE if failures else exit_codes.CLEAN
+    return exit_codes.INCOMPLETE if has_failed else exit_codes.CLEAN
+
+
+def _tell_failures(report: DecompositionReport) -> bool:
+    """Return whether there are any."""
+    failures = [(each.id, each.failure) for each in report.bodies if each.failure is not None]
+    for id_, failure in failures:
+        talk(harmless(f"satcheck: error: {id_}: {failure.message} [{failure.code}]"))
+    return bool(failures)
+
+
+def _write(output: Path, bodies: Sequence[_Split], scene: Scene, inputs: Inputs) -> None:
+    named = {body.id: list(_named(body, result)) for body, result in bodies}
+    if (ending := output.suffix.lower()) == URDF:
+        write_urdf(output, scene, named, inputs)
+    else:
+        parts = list(chain.from_iterable(named.values()))
+        write_file(output, written_meshes.written(parts, ending, scene.units))
 
 
 class _Splitter:
