@@ -138,24 +138,19 @@ def command(
         scene.require_one_unit()
     if not scene.bodies and form == "table":
         return exit_codes.ERROR  # the error is told
-    known = ENGINES[engine] if engine else Limits()
+    known = ENGINES.get(engine or "", Limits())
     limits = Limits(max_parts or known.parts, max_vertices or known.vertices, enclose)
-    splitter = _Splitter(limits, threshold, seed, seconds)
     ending = "" if parts_out is None else parts_out.suffix.lower()
-    bodies = splitter.split_each(in_links(scene) if ending == URDF else scene.bodies)
+    bodies = _Splitter(limits, threshold, seed, seconds).split_each(
+        in_links(scene) if ending == URDF else scene.bodies
+    )
     parts = [part for each in bodies for part in _named(*each)]
     if parts_out is not None and parts:
         _write(parts_out, bodies, scene, inputs)
-    bounds: dict[str, Any] = {
-        "max_parts": limits.parts,
-        "max_vertices": limits.vertices,
-        "enclose": enclose,
-    }
-    settings = DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds, **bounds)
     report = DecompositionReport(
         tool=tool(),
         units=scene.units,
-        settings=settings,
+        settings=_options(limits, threshold, seed, seconds),
         output=None if parts_out is None else parts_out.as_posix(),
         rounding=written_meshes.rounding(parts, ending) if ending else None,
         bodies=tuple(_body_report(*each, enclose or None) for each in bodies),
@@ -166,6 +161,17 @@ def command(
     if scene.unreadable or not parts:
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if has_failed else exit_codes.CLEAN
+
+
+def _options(limits: Limits, threshold: float, seed: int, seconds: float) -> DecompositionOptions:
+    return DecompositionOptions(
+        threshold=threshold,
+        seed=seed,
+        max_parts=limits.parts,
+        max_vertices=limits.vertices,
+        enclose=limits.enclose,
+        seconds=seconds,
+    )
 
 
 def _tell_failures(report: DecompositionReport) -> bool:
