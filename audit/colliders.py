@@ -50,8 +50,9 @@ from satcheck.scene import Scene
 # The width of an interval: as a share of its lower end, or of the size of the link.
 RATIO = 0.01
 FINEST = 1e-5
-# Steps of a search, each about a nanosecond.
-STEPS = 4_000_000_000
+# Steps of a search, and of all searches, each about a nanosecond; and the searches for a link.
+STEPS, STEPS_OF_ALL = 4_000_000_000, 60_000_000_000
+SEARCHES = 4
 # Points on the circles of curved shapes; more if their sag makes the interval wide.
 SEGMENTS = (64, 128, 256)
 VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
@@ -86,11 +87,12 @@ def compare(
             raise SatcheckError("bad-argument", "colliders compares the links of one robot")
     drawn, solid = (_members(place(scene, Settings())) for scene in (visual, collision))
     grouped, parts = _grouped(drawn, solid), []
+    steps = min(STEPS, STEPS_OF_ALL // (SEARCHES * max(len(grouped), 1)))
     for number, (name, kinds) in enumerate(grouped.items()):
         if progress is not None:
             progress(number, len(grouped))
         with step(f"comparing {name}, {number + 1} of {len(grouped)}"):
-            parts.append(_part(name, kinds, limits))
+            parts.append(_part(name, kinds, limits, steps))
     checked = _with_no_pairs_needed(check(collision, settings, least=0))
     told = {(issue.code, issue.file, issue.message) for issue in checked.issues}
     issues = [
@@ -185,7 +187,7 @@ def _rank(part: ColliderPart) -> tuple[float, ...]:
     return VERDICTS.index(part.verdict or "pass"), -max(reaches, default=0.0)
 
 
-def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
+def _part(name: str, kinds: _Kinds, limits: ColliderLimits, steps: int) -> ColliderPart:
     drawn, solid = (tuple(member.id for member in own) for own in kinds)
     part = ColliderPart(name=name, visuals=drawn, colliders=solid)
     lost = [each for each in chain(*kinds) if isinstance(each, UnusableBody)]
@@ -199,18 +201,29 @@ def _part(name: str, kinds: _Kinds, limits: ColliderLimits) -> ColliderPart:
     if not visuals:
         is_open = limits.max_out is not None
         return replace(part, verdict="incomplete" if is_open else None, reason="no visual geometry")
-    notes = [
-        f"{what} {body.id} is open: the bounds hold whatever fills its holes"
-        for what, own in (("visual", visuals), ("collider", colliders))
-        for body in own
-        if not body.solid
-    ]
-    out = None if any(b.endless for b in colliders) else _reach(colliders, visuals)
-    short = None if any(b.endless for b in visuals) else _reach(visuals, colliders)
-    part = replace(part, out=out, short=short, notes=tuple(notes))
-    if out is not None and not any(b.endless for b in visuals):
+    if any(body.endless for body in chain(visuals, colliders)):
+        return _judged(part, limits)
+    notes = [f"visual {b.id} is open: only its surface is drawn" for b in visuals if not b.solid]
+    notes += [f"collider {b.id} is open: any fill of it counts" for b in colliders if not b.solid]
+    out = _reach(colliders, visuals, steps)
+    fills = [body for body in colliders if not body.solid]
+    if out.bounds[1] > 0.0 and all(body.solid for body in visuals):
         part = replace(part, opening=_opening(visuals, colliders, out))
-    return _judged(part, limits)
+    if fills:
+        out = _with_any_fill(out, fills, visuals, steps)
+    short = _reach(visuals, colliders, steps)
+    return _judged(replace(part, out=out, short=short, notes=tuple(notes)), limits)
+
+
+def _with_any_fill(
+    out: Reach, fills: Sequence[PlacedBody], visuals: Sequence[PlacedBody], steps: int
+) -> Reach:
+    """The reach of open colliders, whatever fills them: within their hulls."""
+    hulls = [body.mesh.convex_hull().to_mesh() for body in fills]
+    most = max(_measured(hull, 0.0, visuals, SEGMENTS[0], steps).bounds[1] for hull in hulls)
+    if most <= out.bounds[1]:
+        return out
+    return replace(out, bounds=(out.bounds[0], most), reason=_HOLES)
 
 
 def _judged(part: ColliderPart, limits: ColliderLimits) -> ColliderPart:
@@ -241,43 +254,51 @@ def _opening(
     low, high = map(np.array, mesh.bounds)
     if out.bounds[1] < SMALLEST * float(np.linalg.norm(high - low)):
         return None
-    return largest_opening(mesh, sag, [_surface(b, SEGMENTS[0]) for b in colliders if b.solid])
+    within = [b for b in colliders if b.solid and not b.surface_tolerance]
+    return largest_opening(mesh, sag, [_surface(body, SEGMENTS[0]) for body in within])
 
 
-def _reach(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody]) -> Reach:
-    """How far the sources reach out of the union of the targets."""
+def _reach(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody], steps: int) -> Reach:
+    """How far the surfaces of the sources reach out of the union of the targets."""
     same = {_key(body) for body in targets}
     others = [body for body in sources if _key(body) not in same]
     if not others:
         return Reach(bounds=(0.0, 0.0))
     for segments in SEGMENTS:
-        reach = _measured(others, targets, segments)
+        reach = _measured(*_joined(others, segments), targets, segments, steps)
         if reach.reason != _FACETS:
             break
-    return reach
+    if (at := reach.farthest) is None:
+        return reach
+    own = min(others, key=lambda body: body.surface().nearest(at.point)[0])
+    return replace(reach, farthest=replace(at, body=own.id))
 
 
-def _measured(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody], segments: int) -> Reach:
+def _measured(
+    mesh: Mesh, sag: float, targets: Sequence[PlacedBody], segments: int, steps: int
+) -> Reach:
+    """The reach of a mesh, whose true surface may be off by `sag`; the body of `farthest` is not
+    known here."""
     surfaces = [_surface(body, segments) for body in targets]
-    mesh, sag = _joined(sources, segments)
     low, high = map(np.array, mesh.bounds)
     finest = FINEST * float(np.linalg.norm(high - low))
-    lower, upper, point, narrow = core.union_deviation(mesh, surfaces, finest, RATIO, STEPS)
+    lower, upper, point, narrow = core.union_deviation(mesh, surfaces, finest, RATIO, steps)
     reason = None if narrow else _SPENT
     if not all(surface.solid for surface in surfaces):
         closed = (s.closed() if not s.solid else (s, []) for s in surfaces)
         filled = [each for surface, hulls in closed for each in (surface, *hulls)]
-        lower, _, point, narrow = core.union_deviation(mesh, filled, finest, RATIO, STEPS)
+        lower, _, point, narrow = core.union_deviation(mesh, filled, finest, RATIO, steps)
         reason = reason if lower >= (1 - 2 * RATIO) * upper - finest else _HOLES
     widening = sag + max(_sag(body, segments) for body in targets)
     if widening > RATIO / 2 * lower:
         reason = reason or _FACETS
-    bounds = max(lower - widening, 0.0), upper + sag
+    # Facets lie within a curved shape, and a surface tolerance goes both ways.
+    off = max(body.surface_tolerance for body in targets)
+    bounds = max(lower - widening, 0.0), upper + sag + off
     if bounds[0] == 0.0:
         return Reach(bounds=bounds, reason=reason)
-    own = min(sources, key=lambda body: body.surface().nearest(point)[0])
     other = min(targets, key=lambda body: body.surface().nearest(point)[0])
-    farthest = Farthest(own.id, point, other.id, other.surface().nearest(point)[1])
+    farthest = Farthest("", point, other.id, other.surface().nearest(point)[1])
     return Reach(bounds=bounds, farthest=farthest, reason=reason)
 
 
@@ -288,8 +309,10 @@ def _key(body: PlacedBody) -> tuple[object, ...]:
 
 
 def _sag(body: PlacedBody, segments: int) -> float:
+    """How far the true surface may be off the mesh."""
     shape = body.body.shape
-    return sag_of(shape, segments) * body.largest_stretch if is_curved(shape) else 0.0
+    sag = sag_of(shape, segments) * body.largest_stretch if is_curved(shape) else 0.0
+    return sag + body.surface_tolerance
 
 
 def _surface(body: PlacedBody, segments: int) -> Surface:

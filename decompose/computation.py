@@ -110,7 +110,9 @@ def placed(
     if limits.enclose:
         parts = enclosing_parts(mesh, parts, limits.vertices, deadline)
     elif limits.vertices is not None:
-        parts = tuple(simplified(np.asarray(part.vertices), limits.vertices) for part in parts)
+        parts = tuple(
+            simplified(np.asarray(part.vertices), limits.vertices, deadline) for part in parts
+        )
     surface = Surface(mesh, mesh.topology().solid)
     return replace(
         result,

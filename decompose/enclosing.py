@@ -46,7 +46,7 @@ def enclosing_parts(
     vertices: the most of a part; None: any number. Their coordinates are 32-bit numbers. Raises
     DecompositionError if nothing is proven.
     """
-    bodies = Bodies(parts)
+    bodies = Bodies(parts, deadline)
     corners: list[list[Point]] = [[] for _ in parts]
     off, cut_error = [0.0] * len(parts), bodies.cut_error(mesh)
     for number, piece, whole in bodies.assigned(mesh, deadline):
@@ -67,7 +67,7 @@ def _grown(
     within = np.asarray(part.vertices)
     target = np.concatenate([within, corners])
     if vertices is not None and len(within) > vertices:
-        start = _rounded(simplified(target, vertices).vertices)
+        start = _rounded(simplified(target, vertices, deadline).vertices)
     else:
         start = _rounded(within)
     if _contains(start, corners, off, deadline):
@@ -98,7 +98,7 @@ def _proven(
     for number in range(_ROUNDS):
         if hull.dimension < 3:
             return None
-        hull = _rounded(_pushed(hull, target, margin * 2.0**number))
+        hull = _rounded(_pushed(hull, target, margin * 2.0**number, deadline))
         if _contains(hull, corners, off, deadline):
             return hull
     return None
@@ -120,11 +120,11 @@ def _rounded(points: Floats) -> Polytope:
     return hull_of(np.unique(single, axis=0))
 
 
-def _pushed(hull: Polytope, target: Floats, margin: float) -> Floats:
+def _pushed(hull: Polytope, target: Floats, margin: float, deadline: Deadline) -> Floats:
     """Return the vertices (n, 3), moved so that their faces lie beyond the target by the margin."""
     points, triangles = np.asarray(hull.vertices), np.asarray(hull.triangles)
-    normals, offsets = planes_of(hull)
-    lacking = highest(normals, target, np.zeros(len(target))) - offsets + margin
+    normals, offsets = planes_of(hull, deadline)
+    lacking = highest(normals, target, np.zeros(len(target)), deadline) - offsets + margin
     faces: list[list[int]] = [[] for _ in points]
     for number, triangle in enumerate(triangles.tolist()):
         for vertex in triangle:
@@ -132,6 +132,7 @@ def _pushed(hull: Polytope, target: Floats, margin: float) -> Floats:
     out = points - points.mean(axis=0)  # beyond each face around a vertex
     moves = np.zeros_like(points)
     for vertex, around in enumerate(faces):
+        deadline.check()
         own, wanted, move = normals[around], lacking[around], moves[vertex]
         for _ in range(_STEPS):
             left = wanted - own @ move

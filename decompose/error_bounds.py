@@ -74,7 +74,7 @@ def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NE
     At most about twice that distance, or 1e-6 of the mesh's diagonal above it. Raises
     DecompositionError at the deadline.
     """
-    bodies = Bodies(parts)
+    bodies = Bodies(parts, deadline)
     pieces = bodies.assigned(mesh, deadline)
     error = max((bodies.largest_distance(piece, part) for part, piece, _ in pieces), default=0.0)
     return error + ROUNDINGS * mesh.largest_coordinate if error > 0.0 else 0.0
@@ -83,8 +83,9 @@ def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NE
 class Bodies:
     """The parts, prepared for many queries."""
 
-    def __init__(self, parts: Sequence[Polytope]) -> None:
-        self._planes = [planes_of(part) for part in parts]
+    def __init__(self, parts: Sequence[Polytope], deadline: Deadline) -> None:
+        self._deadline = deadline
+        self._planes = [planes_of(part, deadline) for part in parts]
         self._surfaces = [Surface(part.to_mesh(), True) for part in parts]
         bounds = np.array([surface.mesh.bounds for surface in self._surfaces])
         self._low, self._high = bounds[:, 0], bounds[:, 1]
@@ -123,7 +124,7 @@ class Bodies:
 
     def heights(self, points: Floats) -> Floats:
         """(points, parts): the height above the highest plane of each part; at most 0 inside."""
-        return np.stack([highest(points, *planes) for planes in self._planes], axis=1)
+        return np.stack([highest(points, *each, self._deadline) for each in self._planes], axis=1)
 
     def distance(self, point: Point, part: int) -> float:
         """The distance to the solid part; 0.0 inside, decided by exact signs."""
@@ -170,7 +171,7 @@ class Bodies:
         return list(zip(normals[cutting].tolist(), offsets[cutting].tolist(), strict=True))
 
 
-def planes_of(part: Polytope) -> tuple[Floats, Floats]:
+def planes_of(part: Polytope, deadline: Deadline) -> tuple[Floats, Floats]:
     """((f, 3), (f,)): the part is where normal . x <= offset for each unit normal. A triangle
     without area limits nothing: its normal is 0, its offset infinite."""
     corners = np.asarray(part.vertices)
@@ -178,16 +179,17 @@ def planes_of(part: Polytope) -> tuple[Floats, Floats]:
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
     normals = normals / np.where(lengths > 0.0, lengths, np.inf)[:, None]
-    return normals, np.where(
-        lengths > 0.0, highest(normals, corners, np.zeros(len(corners))), np.inf
-    )
+    offsets = highest(normals, corners, np.zeros(len(corners)), deadline)
+    return normals, np.where(lengths > 0.0, offsets, np.inf)
 
 
-def highest(points: Floats, normals: Floats, offsets: Floats) -> Floats:
+def highest(points: Floats, normals: Floats, offsets: Floats, deadline: Deadline) -> Floats:
     """(n,): the height of each point (n, 3) above the highest plane."""
-    at_once = max(1, _ENTRIES_AT_ONCE // len(offsets))
-    chunks = (points[first : first + at_once] for first in range(0, len(points), at_once))
-    return np.concatenate([(chunk @ normals.T - offsets).max(axis=1) for chunk in chunks])
+    at_once, found = max(1, _ENTRIES_AT_ONCE // len(offsets)), []
+    for first in range(0, len(points), at_once):
+        deadline.check()
+        found.append((points[first : first + at_once] @ normals.T - offsets).max(axis=1))
+    return np.concatenate(found)
 
 
 def heights(polygon: Polygon, plane: Plane) -> list[float]:

@@ -51,15 +51,19 @@ def merged_parts(parts: Sequence[Polytope], most: int, deadline: Deadline) -> tu
     return tuple(bodies[number] for number in left)
 
 
-def simplified(points: Floats, most: int) -> Polytope:
+def simplified(points: Floats, most: int, deadline: Deadline) -> Polytope:
     """Return a hull of at most so many of the points (n, 3), the farthest from the hull of those
-    before it first. Raises DecompositionError if the points are flat."""
+    before it first. Raises DecompositionError if the points are flat, and at the deadline."""
+    whole = hull_of(points)
+    if whole.dimension == 3 and whole.vertex_count <= most:
+        return whole
     chosen = _corners(points)
     while True:
+        deadline.check()
         hull = hull_of(points[chosen])
         if hull.dimension < 3:
             raise DecompositionError(errors.FLAT, "a part is too thin for the numbers of the file")
-        heights = highest(points, *planes_of(hull))
+        heights = highest(points, *planes_of(hull, deadline), deadline)
         farthest = int(heights.argmax())
         if len(chosen) >= most or heights[farthest] <= 0.0 or farthest in chosen:
             return hull

@@ -69,8 +69,8 @@ def command(
     fall short of it, and where; and which openings they close. The colliders are checked against
     each other at rest.
 
-    Exit codes: 0, colliders keep the limits, and none overlap; 1, some do not; 2, wrong usage, an
-    unreadable input, or an internal error; 3, that is open.
+    Exit codes: 0, all links keep the limits, and no colliders overlap that may not; 1, some do; 2,
+    wrong usage, an unreadable input, or an internal error; 3, that could not be decided.
     """
     inputs, targets = Inputs.taken_from(options), targets_of(form, outputs, FORMATS)
     if any(name == "csv" for name, _ in targets):

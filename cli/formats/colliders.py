@@ -115,7 +115,7 @@ def as_report(
     drawn = [replace(body, id=names[body.id], name=names[body.id]) for body in visual.bodies]
     both = replace(collision, bodies=(*collision.bodies, *drawn))
     placed = place(replace(visual, bodies=tuple(drawn), order=tuple(names.values())), Settings())
-    findings = [*checked.findings]
+    findings, told = [*checked.findings], set()
     for part in report.parts:
         for rule, reach, most in (
             (STICKS_OUT, part.out, report.settings.max_out),
@@ -123,9 +123,14 @@ def as_report(
         ):
             if reach is not None and (at := reach.farthest) is not None:
                 said = _sentence(part, rule, reach, at, unit_of(report.units))
-                findings.append(replace(_finding(rule, reach, at, most, names), message=said))
+                finding = replace(_finding(rule, reach, at, most, names), message=said)
+                findings.append(finding)
+                if finding.severity != "note":
+                    told.add(part.name)
     open_links = (
-        part for part in report.parts if part.out is None and part.verdict in ("fail", "incomplete")
+        part
+        for part in report.parts
+        if part.verdict in ("fail", "incomplete") and part.name not in told
     )
     issues = (
         Issue(

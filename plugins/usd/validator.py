@@ -19,8 +19,8 @@ _CODE = "com.nvidia.simready.BA.002"
 class NonAdjacentCollidersOverlap(validator.BaseRuleChecker):  # type: ignore[misc]  # maybe absent
     """Colliders of links that no joint connects must not overlap.
 
-    A failure is proven, on the stage as it is open, without a simulation. A warning says what could
-    not be decided.
+    A failure is a proven overlap, on the stage as it is open, without a simulation, or says why the
+    stage is not read. A warning says what could not be decided.
     """
 
     def CheckStage(self, usdStage: Any) -> None:

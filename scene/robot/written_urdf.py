@@ -4,7 +4,8 @@ relative names of files, if it goes to another folder."""
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import count
 from xml.sax.saxutils import quoteattr
 
 from satcheck.scene.files.readers import GeometryKind
@@ -56,9 +57,11 @@ def urdf_of_parts(
             end, indent = _end(data, shape), _INDENT.search(data, 0, shape.start)
             between = indent[0] if indent else b"\n"
             files = parts.get(own[alike.index(shape)], ()) if own else ()
-            text = between.join(_collisions(data, shape, files))
+            taken = {each.attributes.get("name") for each in link.all("collision")}
+            text = between.join(_collisions(data, shape, files, taken))
             if geometry == "visual":
-                text = text or _FILE.sub(rb"\g<1>" + prefix, data[shape.start : end])
+                bare = _edited(data, shape.start, end, _without(data, shape, "material"))
+                text = text or _FILE.sub(rb"\g<1>" + prefix, bare)
                 edits.append((end, end, between + _VISUAL.sub(rb"\1collision", text)))
             elif files:
                 edits.append((shape.start, end, text))
@@ -82,13 +85,22 @@ def _end(data: bytes, element: Element) -> int:
     return opened if data.endswith(b"/>", 0, opened) else data.index(b">", element.last) + 1
 
 
-def _collisions(data: bytes, shape: Element, files: Sequence[str]) -> Iterator[bytes]:
-    """Yield a copy of the element for each file: without its origin, the file its geometry."""
+def _without(data: bytes, shape: Element, tag: str) -> list[_Edit]:
+    return [(each.start, _end(data, each), b"") for each in shape.all(tag)]
+
+
+def _collisions(
+    data: bytes, shape: Element, files: Sequence[str], taken: Collection[str | None]
+) -> Iterator[bytes]:
+    """Yield a copy of the element for each file: without its origin, the file its geometry. taken:
+    names that no copy gets."""
     opened, last = _opened(data, shape), _end(data, shape)
-    for number, file in enumerate(files, 1):
+    name = shape.attributes.get("name")
+    numbers = (number for number in count(1) if f"{name}-{number}" not in taken)
+    for number, file in zip(numbers, files, strict=False):
         named = quoteattr(file).encode("ascii", "xmlcharrefreplace")
         mesh = b"<geometry><mesh filename=" + named + b"/></geometry>"
-        edits = [(each.start, _end(data, each), b"") for each in shape.all("origin")]
+        edits = [*_without(data, shape, "origin"), *_without(data, shape, "material")]
         edits += [(each.start, _end(data, each), mesh) for each in shape.all("geometry")[:1]]
         tag = data[shape.start : opened]
         numbered = _NAME.sub(rb"\g<1>\g<2>\g<3>-%d\g<2>" % number, tag, count=1)

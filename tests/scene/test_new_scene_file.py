@@ -183,8 +183,7 @@ def test_each_sample_is_written_as_it_was_read(tmp_path, sample) -> None:
 
 
 def test_a_robot_is_written_in_its_pose(tmp_path) -> None:
-    robot = next(path for path in SAMPLES.iterdir() if path.suffix == ".urdf")
-    scene = load_scene([robot])
+    scene = load_scene([SAMPLES / "arm.urdf"])
     joint, *_ = scene.posture.joints
     turned = posed(scene, {joint: [0.125]})
     made = written(tmp_path / "made.toml", turned)
