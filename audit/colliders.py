@@ -21,7 +21,7 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies, UnusableBody, place
-from satcheck.audit.body import PlacedBody, mesh_key
+from satcheck.audit.body import PlacedBody
 from satcheck.audit.check import check
 from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.openings import SMALLEST, largest_opening
@@ -204,9 +204,10 @@ def _part(name: str, kinds: _Kinds, limits: ColliderLimits, steps: int) -> Colli
     if any(body.endless for body in chain(visuals, colliders)):
         return _judged(part, limits)
     notes = [f"visual {b.id} is open: only its surface is drawn" for b in visuals if not b.solid]
-    notes += [f"collider {b.id} is open: any fill of it counts" for b in colliders if not b.solid]
+    same = set(map(_key, visuals))  # with the same fill
+    fills = [body for body in colliders if not body.solid and _key(body) not in same]
+    notes += [f"collider {body.id} is open: any fill of it counts" for body in fills]
     out = _reach(colliders, visuals, steps)
-    fills = [body for body in colliders if not body.solid]
     if out.bounds[1] > 0.0 and all(body.solid for body in visuals):
         part = replace(part, opening=_opening(visuals, colliders, out))
     if fills:
@@ -305,7 +306,7 @@ def _measured(
 def _key(body: PlacedBody) -> tuple[object, ...]:
     """The same for the same geometry in the same place."""
     own = body.body
-    return own.transform, own.shape or mesh_key(own.file, is_open=own.open)
+    return own.transform, own.shape or (own.file.mesh.to_bytes(), own.open)
 
 
 def _sag(body: PlacedBody, segments: int) -> float:

@@ -448,6 +448,27 @@ def test_an_open_mesh_leaves_open_what_its_fill_decides(tmp_path: Path) -> None:
     assert holds(beyond.out, 0.5, NOTHING)
 
 
+def test_any_fill_of_an_open_collider_counts(tmp_path: Path) -> None:
+    """Unless it is drawn alike: then both have one fill."""
+    alike = only_part(urdf(tmp_path, Case([open_box(1, 1, 1)], [open_box(1, 1, 1)], 0, 0)))
+    assert alike.out.bounds == alike.short.bounds == (0.0, 0.0)
+    # Three sides around a U of walls: a flat front of the collider would lie outside.
+    walls = [box(0.1, 4, 4, (-2, 0, 0)), box(4, 0.1, 4, (0, -2, 0)), box(4, 0.1, 4, (0, 2, 0))]
+    points, faces = corners((4, 4, 4))
+    kept = [face for face in faces if not all(points[k][0] > 0 for k in face)]
+    kept = [face for face in kept if len({points[k][2] for k in face}) > 1]
+    part = only_part(urdf(tmp_path, Case(walls, [mesh(points, kept)], 0, 0)), max_out=0.1)
+    assert part.verdict == "incomplete"
+    assert part.out.bounds[1] >= 1.9
+
+
+def test_an_open_visual_has_no_opening(tmp_path: Path) -> None:
+    points, faces = corners((2, 2, 2))
+    sides = [face for face in faces if len({points[k][2] for k in face}) > 1]
+    part = only_part(urdf(tmp_path, Case([mesh(points, sides)], [box(2, 2, 2)], 0, 0)))
+    assert part.opening is None
+
+
 @pytest.mark.parametrize(
     ("limits", "verdict"),
     [
