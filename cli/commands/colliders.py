@@ -21,6 +21,7 @@ from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.option import in_units_of, length, settings_of
 from satcheck.cli.output import Document, Page, tell_issues
 from satcheck.cli.progress import Bar
+from satcheck.core.errors import SatcheckError
 from satcheck.report.colliders import ColliderLimits, CollidersReport
 from satcheck.report.json import document as json_document
 from satcheck.report.report import Report
@@ -29,6 +30,7 @@ from satcheck.scene.files.readers import GEOMETRY, GeometryKind
 from satcheck.scene.units import Length
 
 FORMATS = FormatChoice(ALL)
+_BOTH = "a robot, a USD or a glTF file, which have visual and collision geometry"
 
 
 @click.command("colliders", cls=Command, context_settings=HELP_NAMES)
@@ -75,6 +77,8 @@ def command(
     inputs, targets = Inputs.taken_from(options), targets_of(form, outputs, FORMATS)
     if any(name == "csv" for name, _ in targets):
         raise click.UsageError("CSV has rows for pairs; JSON has the figures of links")
+    if not inputs.paths:
+        raise click.UsageError(f"give {_BOTH}")
     refuse_early(inputs, outputs)
     config = stated_config(click.get_current_context())
     document = Document()
@@ -116,7 +120,14 @@ def _rendered(
 
 
 def _loaded(inputs: Inputs, kind: GeometryKind) -> Scene:
-    return replace(inputs, geometry=kind).load(inputs.paths, must_count=[GEOMETRY.name])
+    try:
+        return replace(inputs, geometry=kind).load(inputs.paths, must_count=[GEOMETRY.name])
+    except SatcheckError as error:
+        if error.code == "unused-option":  # of --geometry, which nobody has typed
+            raise SatcheckError(
+                "unused-option", f"only one kind of geometry: give {_BOTH}"
+            ) from None
+        raise
 
 
 def _limit(given: Length | None, scene: Scene, name: str) -> float | None:

@@ -78,7 +78,9 @@ def test_an_unreadable_mesh_is_an_error_and_the_rest_is_answered(robot: str) -> 
 def test_a_file_without_both_geometries_is_refused() -> None:
     ran = satcheck("colliders", "box.obj")
     assert ran.code == 2
-    assert "geometry" in ran.err
+    assert "give a robot, a USD or a glTF file" in ran.err
+    assert "--geometry" not in ran.err
+    assert "give a robot, a USD or a glTF file" in satcheck("colliders").err
 
 
 def test_where_nothing_is_compared_nothing_passes(tmp_path: Path) -> None:
