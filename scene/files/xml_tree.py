@@ -117,8 +117,7 @@ class RefusedElement(Refused):
 @dataclass(slots=True, eq=False)
 class Element:
     """tag and names of attributes: without namespaces, or as written in a robot. file: the path of
-    a robot as given, which errors then name; "": of a mesh file. text: of the whole element. start:
-    of its bytes in the document; last: of its end tag, or the end of an empty element."""
+    a robot as given, which errors then name; "": of a mesh file. text: of the whole element."""
 
     tag: str
     attributes: dict[str, str]
@@ -126,8 +125,6 @@ class Element:
     file: str = ""
     children: list[Element] = field(default_factory=list)
     pieces: list[str] = field(default_factory=list)
-    start: int = 0
-    last: int = 0
 
     @property
     def text(self) -> str:
@@ -264,7 +261,6 @@ def read_elements(
     def start(name: str, attributes: dict[str, str]) -> None:
         named = {key_of(key): value for key, value in attributes.items()}
         element = Element(tag_of(name), named, parser.CurrentLineNumber, file or "")
-        element.start = parser.CurrentByteIndex
         if len(around) >= MAX_DEPTH:
             message = (
                 f"line {element.line}: elements are nested deeper than {MAX_DEPTH}: flatten it"
@@ -273,10 +269,8 @@ def read_elements(
         (around[-1].children if around else outermost).append(element)
         around.append(element)
 
-    def end(_: str) -> None:
-        around.pop().last = parser.CurrentByteIndex
-
-    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda _: around.pop()
     parser.CharacterDataHandler = lambda text: around[-1].pieces.append(text) if around else None
     if prefixes is not None:
         parser.StartNamespaceDeclHandler = prefixes.__setitem__

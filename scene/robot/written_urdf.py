@@ -1,4 +1,4 @@
-"""Writes a URDF whose collision geometry is convex parts. All other bytes stay as they are, but for
+"""Writes a URDF whose collision geometry is convex parts. All else stays, comments too, but for
 relative names of files, if it goes to another folder."""
 
 from __future__ import annotations
@@ -6,21 +6,15 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import count
-from xml.sax.saxutils import quoteattr
+from typing import Any
+from xml.dom import expatbuilder
 
 from satcheck.scene.files.readers import GeometryKind
-from satcheck.scene.files.xml_tree import Element
 from satcheck.scene.robot.assembly import SceneRobot
 from satcheck.scene.robot.reading import parsed
 
-# Of an element: its start tag, in which > may stand in a value.
-_START_TAG = re.compile(rb"""<(?:[^"'>]|"[^"]*"|'[^']*')*>""")
-_NAME = re.compile(rb"""(\sname\s*=\s*)(["'])(.*?)\2""", re.DOTALL)
-_FILE = re.compile(rb"""(\sfilename\s*=\s*["'])(?![\\/]|\w+:)""")
-_INDENT = re.compile(rb"\n[ \t]*\Z")
-_VISUAL = re.compile(rb"(</?)visual\b")
-_NAME_FILES = ("mesh", "texture")
-_Edit = tuple[int, int, bytes]  # the first byte, the one after the last, what replaces them
+_ABSOLUTE = re.compile(r"[\\/]|\w+:")
+_Node = Any  # by its stubs each child may be of any kind
 
 
 def urdf_of_parts(
@@ -41,76 +35,56 @@ def urdf_of_parts(
     root, data = parsed(robot.robot.file, data)
     if root.tag != "robot":
         root.refuse("no URDF: parts as .urdf are made from one URDF", "unsupported-feature")
-    if b"\0" in data:  # UTF-16
-        root.refuse("a URDF that is rewritten has to be in ASCII or UTF-8", "bad-encoding")
-    edits: list[_Edit] = []
-    prefix = f"{quoteattr(back)[1:-1]}/".encode("ascii", "xmlcharrefreplace") if back else b""
-    for link in root.all("link"):
-        bodies = robot.bodies_of(link.attribute("name"))
-        if geometry == "visual":
-            edits += [(each.start, _end(data, each), b"") for each in link.all("collision")]
-        for shape in link.all(geometry):
+    document: _Node = expatbuilder.parseString(data, namespaces=False)
+    for tag in ("mesh", "texture") if back else ():
+        for each in document.getElementsByTagName(tag):
+            if (name := each.getAttribute("filename")) and not _ABSOLUTE.match(name):
+                each.setAttribute("filename", f"{back}/{name}")
+    links = _all(document.documentElement, "link")
+    for link, node in zip(root.all("link"), links, strict=True):
+        bodies, replaced = robot.bodies_of(link.attribute("name")), _all(node, "collision")
+        taken = {each.getAttribute("name") for each in replaced}
+        for shape, stated in zip(link.all(geometry), _all(node, geometry), strict=True):
             alike = [each for each in link.all(geometry) if each.line == shape.line]
             own = [body for body in bodies if lines.get(body) == shape.line]
             if own and len(own) < len(alike):
                 shape.refuse("a shape without geometry in its line: give each a line of its own")
-            end, indent = _end(data, shape), _INDENT.search(data, 0, shape.start)
-            between = indent[0] if indent else b"\n"
             files = parts.get(own[alike.index(shape)], ()) if own else ()
-            taken = {each.attributes.get("name") for each in link.all("collision")}
-            text = between.join(_collisions(data, shape, files, taken))
-            if geometry == "visual":
-                bare = _edited(data, shape.start, end, _without(data, shape, "material"))
-                text = text or _FILE.sub(rb"\g<1>" + prefix, bare)
-                edits.append((end, end, between + _VISUAL.sub(rb"\1collision", text)))
-            elif files:
-                edits.append((shape.start, end, text))
-    for each in root.below() if back else ():
-        kept = not any(first <= each.start < last for first, last, _ in edits)
-        named = (
-            kept and each.tag in _NAME_FILES and _FILE.search(data, each.start, _opened(data, each))
-        )
-        if named:
-            edits.append((named.end(), named.end(), prefix))
-    return _edited(data, 0, len(data), edits)
+            indent, after = stated.previousSibling, stated.nextSibling
+            for each in list(_collisions(stated, files, taken)):
+                if _is_blank(indent):
+                    node.insertBefore(indent.cloneNode(False), after)
+                node.insertBefore(each, after)
+        for each in replaced:
+            if _is_blank(each.previousSibling):
+                node.removeChild(each.previousSibling)
+            node.removeChild(each)
+    written: bytes = document.toxml("utf-8")
+    return written.replace(b"?>", b"?>\n", 1)
 
 
-def _opened(data: bytes, element: Element) -> int:
-    """The end of its start tag."""
-    return next(_START_TAG.finditer(data, element.start)).end()
-
-
-def _end(data: bytes, element: Element) -> int:
-    opened = _opened(data, element)
-    return opened if data.endswith(b"/>", 0, opened) else data.index(b">", element.last) + 1
-
-
-def _without(data: bytes, shape: Element, tag: str) -> list[_Edit]:
-    return [(each.start, _end(data, each), b"") for each in shape.all(tag)]
-
-
-def _collisions(
-    data: bytes, shape: Element, files: Sequence[str], taken: Collection[str | None]
-) -> Iterator[bytes]:
-    """Yield a copy of the element for each file: without its origin, the file its geometry. taken:
-    names that no copy gets."""
-    opened, last = _opened(data, shape), _end(data, shape)
-    name = shape.attributes.get("name")
+def _collisions(stated: _Node, files: Sequence[str], taken: Collection[str]) -> Iterator[_Node]:
+    """Yield a collision for each file, where the link is; without files, one as is stated, but for
+    its material. taken: names that none gets."""
+    name, document = stated.getAttribute("name"), stated.ownerDocument
     numbers = (number for number in count(1) if f"{name}-{number}" not in taken)
-    for number, file in zip(numbers, files, strict=False):
-        named = quoteattr(file).encode("ascii", "xmlcharrefreplace")
-        mesh = b"<geometry><mesh filename=" + named + b"/></geometry>"
-        edits = [*_without(data, shape, "origin"), *_without(data, shape, "material")]
-        edits += [(each.start, _end(data, each), mesh) for each in shape.all("geometry")[:1]]
-        tag = data[shape.start : opened]
-        numbered = _NAME.sub(rb"\g<1>\g<2>\g<3>-%d\g<2>" % number, tag, count=1)
-        yield numbered + _edited(data, opened, last, edits)
+    for number, file in zip(numbers, files or ("",), strict=False):
+        each = document.renameNode(stated.cloneNode(True), "", "collision")
+        for tag in ("material", "origin", "geometry") if file else ("material",):
+            for child in _all(each, tag):
+                each.removeChild(child)
+        if file:
+            geometry = each.appendChild(document.createElement("geometry"))
+            geometry.appendChild(document.createElement("mesh")).setAttribute("filename", file)
+            if name:
+                each.setAttribute("name", f"{name}-{number}")
+        yield each
 
 
-def _edited(data: bytes, first: int, last: int, edits: Sequence[_Edit]) -> bytes:
-    """The bytes from first to last, in which the text of each edit replaces its range."""
-    pieces = []
-    for start, end, text in sorted(edits):
-        pieces += [data[first:start], text]
-        first = end
-    return b"".join([*pieces, data[first:last]])
+def _all(parent: _Node, tag: str) -> list[_Node]:
+    """The children with that name."""
+    return [child for child in parent.childNodes if child.nodeName == tag]
+
+
+def _is_blank(node: _Node | None) -> bool:
+    return node is not None and node.nodeType == node.TEXT_NODE and node.data.isspace()

@@ -1,4 +1,4 @@
-"""A URDF is rewritten in place: all bytes stay but those of its collisions."""
+"""A URDF with other collisions: all else stays."""
 
 from __future__ import annotations
 
@@ -32,10 +32,11 @@ def rewritten(folder: Path, text: str, encoding: str = "utf-8", back: str = "") 
 
 def test_shapes_in_one_line_keep_their_order(tmp_path: Path) -> None:
     assert rewritten(tmp_path, TEXT.format(more="<!-- ü -->")).decode() == (
-        '<robot name="r">\n<link name="a"><collision name="x-1"><geometry>'
-        '<mesh filename="p/1.obj"/></geometry></collision><collision><geometry>'
-        '<mesh filename="p/2.obj"/></geometry></collision>\n<collision><geometry>'
-        '<mesh filename="p/&#252;&amp;.obj"/></geometry></collision><!-- ü --></link></robot>'
+        '<?xml version="1.0" encoding="utf-8"?>\n<robot name="r">\n<link name="a">'
+        '<collision name="x-1"><geometry><mesh filename="p/1.obj"/></geometry></collision>'
+        '<collision><geometry><mesh filename="p/2.obj"/></geometry></collision>'
+        '<collision><geometry><mesh filename="p/ü&amp;.obj"/></geometry></collision>'
+        "<!-- ü --></link></robot>"
     )
 
 
@@ -44,10 +45,23 @@ def test_a_shape_without_geometry_in_the_line_is_refused(tmp_path: Path) -> None
         rewritten(tmp_path, TEXT.format(more="<collision/>"))
 
 
-def test_another_encoding_is_refused(tmp_path: Path) -> None:
-    text = f'<?xml version="1.0" encoding="utf-16"?>{TEXT.format(more="")}'
-    with pytest.raises(Refused, match="ASCII or UTF-8"):
-        rewritten(tmp_path, text, "utf-16")
+def test_other_encodings_and_undeclared_prefixes_are_kept(tmp_path: Path) -> None:
+    text = TEXT.format(more='<gazebo:odd a:b="&#38;&gt;"/>')
+    expected = rewritten(tmp_path, text)
+    declared = f'<?xml version="1.0" encoding="utf-16"?>{text}'
+    assert rewritten(tmp_path, declared, "utf-16") == expected
+    assert b'<gazebo:odd a:b="&amp;&gt;"/>' in expected
+
+
+def test_what_stands_on_lines_of_its_own_stays_so(tmp_path: Path) -> None:
+    text = TEXT.replace("<collision", "\n  <collision").replace("</link>", "\n</link>")
+    assert rewritten(tmp_path, text.format(more="")).decode().split("\n")[2:] == [
+        '<link name="a">',
+        '  <collision name="x-1"><geometry><mesh filename="p/1.obj"/></geometry></collision>',
+        '  <collision><geometry><mesh filename="p/2.obj"/></geometry></collision>',
+        '  <collision><geometry><mesh filename="p/ü&amp;.obj"/></geometry></collision>',
+        "</link></robot>",
+    ]
 
 
 def test_relative_names_lead_from_the_new_folder(tmp_path: Path) -> None:
