@@ -35,6 +35,7 @@ from satcheck.core.shape_mesh import mesh_of, sag_of
 from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step
 from satcheck.report.colliders import (
+    OF_COLLIDERS,
     ColliderLimits,
     ColliderPart,
     CollidersReport,
@@ -209,7 +210,7 @@ def _part(name: str, kinds: _Kinds, limits: ColliderLimits, steps: int) -> Colli
     notes += [f"collider {body.id} is open: any fill of it counts" for body in fills]
     out = _reach(colliders, visuals, steps)
     if out.bounds[1] > 0.0 and all(body.solid for body in visuals):
-        part = replace(part, opening=_opening(visuals, colliders, out))
+        part = replace(part, opening=_opening(visuals, colliders, out, steps / STEPS))
     if fills:
         out = _with_any_fill(out, fills, visuals, steps)
     short = _reach(visuals, colliders, steps)
@@ -233,22 +234,20 @@ def _judged(part: ColliderPart, limits: ColliderLimits) -> ColliderPart:
     reason = None
     if part.out is None or part.short is None:
         reason = _NO_END
-    for reach, limit, name in (
-        (part.out, limits.max_out, "sticks out"),
-        (part.short, limits.max_short, "falls short"),
-    ):
+    for rule, reach, limit in part.reaches(limits):
         if limit is None or (reach is not None and reach.bounds[1] <= limit):
             continue
+        far = f"it {OF_COLLIDERS[rule]} by more than the limit"
         if reach is not None and reach.bounds[0] > limit:
-            return replace(part, verdict="fail", reason=f"it {name} by more than the limit")
+            return replace(part, verdict="fail", reason=far)
         verdict = "incomplete"
         why = _NO_END if reach is None else reach.reason or "the limit is within the bounds"
-        reason = f"it is open whether it {name} by more than the limit: {why}"
+        reason = f"it is open whether {far}: {why}"
     return replace(part, verdict=verdict, reason=reason)
 
 
 def _opening(
-    visuals: Sequence[PlacedBody], colliders: Sequence[PlacedBody], out: Reach
+    visuals: Sequence[PlacedBody], colliders: Sequence[PlacedBody], out: Reach, share: float
 ) -> Opening | None:
     """A ball that passes is no wider than the colliders stick out, on both sides of its line."""
     mesh, sag = _joined(visuals, SEGMENTS[0])
@@ -256,7 +255,7 @@ def _opening(
     if out.bounds[1] < SMALLEST * float(np.linalg.norm(high - low)):
         return None
     within = [b for b in colliders if b.solid and not b.surface_tolerance]
-    return largest_opening(mesh, sag, [_surface(body, SEGMENTS[0]) for body in within])
+    return largest_opening(mesh, sag, [_surface(body, SEGMENTS[0]) for body in within], share)
 
 
 def _reach(sources: Sequence[PlacedBody], targets: Sequence[PlacedBody], steps: int) -> Reach:

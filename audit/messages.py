@@ -31,7 +31,7 @@ from satcheck.audit.words import (
     with_unit,
     worst_first,
 )
-from satcheck.report.colliders import OF_COLLIDERS, STICKS_OUT
+from satcheck.report.colliders import OF_COLLIDERS
 from satcheck.report.report import BEYOND_BUDGET, INTERNAL_ERROR, NOTHING_TO_CHECK, OVERLAPS
 from satcheck.report.request import OPTIONS_OF_LIMITS
 from satcheck.report.sweep import JointPath
@@ -268,8 +268,8 @@ def finding_message(finding: Finding, report: Report) -> str:
 def measured(finding: Finding, unit: str | None) -> str:
     """Return `penetrating, thickness 0.5 mm, 1 mm to pull apart`, for what names the bodies."""
     if finding.rule in OF_COLLIDERS and finding.distance is not None:
-        verb = "sticks out" if finding.rule == STICKS_OUT else "falls short"
-        return f"{verb} by {with_unit(at_least(finding.distance), unit)} at least"
+        least = with_unit(at_least(finding.distance), unit)
+        return f"{OF_COLLIDERS[finding.rule]} by {least} at least"
     parts = [finding.relation, *_figures(finding, unit)]
     if finding.distance is not None:
         parts.append(f"gap {with_unit(number(finding.distance), unit)}")

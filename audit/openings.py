@@ -42,15 +42,18 @@ SMALLEST = 5e-3
 _MARGIN = 1e-9
 
 
-def largest_opening(mesh: Mesh, sag: float, colliders: Sequence[Surface]) -> Opening | None:
+def largest_opening(
+    mesh: Mesh, sag: float, colliders: Sequence[Surface], share: float
+) -> Opening | None:
     """The largest opening of the mesh that was found to be closed by the colliders.
 
-    sag: how far the drawn surface may be off its triangles. colliders: within the true ones.
+    sag: how far the drawn surface may be off its triangles. colliders: within the true ones. share:
+    of the effort of a run, for this mesh.
     """
     low, high = map(np.array, mesh.bounds)
     size = float(np.linalg.norm(high - low))
     drawn, best = Surface(mesh, False), None
-    for direction in _directions(mesh):
+    for direction in _directions(mesh, share):
         least = SMALLEST * size if best is None else best.diameter / 2
         view = _View(drawn, sag, colliders, direction)
         best = view.opening(least, (low + high) / 2) or best
@@ -149,7 +152,7 @@ class _View:
         return found
 
 
-def _directions(mesh: Mesh) -> list[Floats]:
+def _directions(mesh: Mesh, share: float) -> list[Floats]:
     """Unit vectors: the axes of the world, those of the mesh, and normals of large faces."""
     points = np.asarray(mesh.vertices)
     _, main = np.linalg.eigh(np.cov(points.T))
@@ -163,7 +166,7 @@ def _directions(mesh: Mesh) -> list[Floats]:
         kinds[key] = kinds.get(key, 0.0) + area
     frequent = sorted(kinds, key=lambda key: (-kinds[key], key))[:_MOST_DIRECTIONS]
     directions: list[Floats] = []
-    most = min(max(_TRIANGLES // mesh.triangle_count, 3), _MOST_DIRECTIONS)
+    most = min(max(int(share * _TRIANGLES / mesh.triangle_count), 3), _MOST_DIRECTIONS)
     for way in (*np.eye(3), *main.T, *map(np.array, frequent)):
         unit = way / np.linalg.norm(way)
         if len(directions) < most and all(abs(unit @ other) < _ALIKE for other in directions):

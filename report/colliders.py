@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Literal
 
 from satcheck.report.report import Finding, Issue, PairCounts
 from satcheck.report.settings import StatedConfig
 from satcheck.report.values import Interval, Length, Tool, Value, Vector, Verdict
 
-# The rules of findings about colliders, for formats that list findings about two bodies.
-STICKS_OUT, FALLS_SHORT = OF_COLLIDERS = ("collider-out", "collider-short")
+# The rules of findings about colliders, for formats that list findings about two bodies, and verbs.
+STICKS_OUT, FALLS_SHORT = "collider-out", "collider-short"
+OF_COLLIDERS = {STICKS_OUT: "sticks out", FALLS_SHORT: "falls short"}
 
 
 class Farthest(Value, frozen=True):
@@ -67,6 +69,11 @@ class ColliderPart(Value, frozen=True, kw_only=True):
     verdict: Verdict | None = "pass"
     reason: str | None = None
     notes: tuple[str, ...] = ()
+
+    def reaches(self, limits: ColliderLimits) -> Iterator[tuple[str, Reach | None, Length | None]]:
+        """Yield a rule of `OF_COLLIDERS`, the reach, and its limit."""
+        yield STICKS_OUT, self.out, limits.max_out
+        yield FALLS_SHORT, self.short, limits.max_short
 
 
 class ColliderLimits(Value, frozen=True, kw_only=True):

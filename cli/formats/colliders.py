@@ -30,15 +30,15 @@ from satcheck.cli.formats.tables import (
     table,
 )
 from satcheck.cli.output import issue_line
-from satcheck.report.colliders import FALLS_SHORT, STICKS_OUT
+from satcheck.report.colliders import OF_COLLIDERS, STICKS_OUT
 from satcheck.report.report import Finding, Issue, Witness, finding_id
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from satcheck.cli.output import Page
-    from satcheck.report.colliders import ColliderPart, CollidersReport, Farthest, Reach
+    from satcheck.report.colliders import ColliderPart, CollidersReport, Reach
     from satcheck.report.report import Report
     from satcheck.scene import Scene
 
@@ -66,7 +66,7 @@ def render(report: CollidersReport, checked: Report, page: Page, *, top: int | N
         lines += table(columns, page, [VERDICT_STYLES[verdict or "pass"] for verdict in verdicts])
     lines += fitted_each(hidden(len(report.parts) - len(shown), "link"), page)
     for part in shown[:_TOLD]:
-        lines += fitted_each(_places(part, unit), page)
+        lines += fitted_each([each.message for each in _findings(part, report)], page)
     overlaps = report.overlaps[: top or ROWS]
     if overlaps:
         lines += table(columns_of(overlaps, checked, explain=False, timings=False), page)
@@ -90,81 +90,64 @@ def _opening(part: ColliderPart) -> str:
     return f">= {at_least(part.opening.diameter)}" if part.opening else ""
 
 
-def _places(part: ColliderPart, unit: str | None) -> Iterator[str]:
-    for rule, reach in ((STICKS_OUT, part.out), (FALLS_SHORT, part.short)):
-        if reach is not None and reach.farthest is not None:
-            yield _sentence(part, rule, reach, reach.farthest, unit)
-
-
-def _sentence(part: ColliderPart, rule: str, reach: Reach, at: Farthest, unit: str | None) -> str:
-    said = "sticks out" if rule == STICKS_OUT else "falls short"
-    said = f"{part.name}: {said} by {figure(reach.bounds, unit)} at {vector(at.point)}"
-    if rule == FALLS_SHORT or (opening := part.opening) is None:
-        return f"{said}."
-    wide = with_unit(at_least(opening.diameter), unit)
-    where, way = vector(opening.point), vector(opening.direction)
-    return f"{said}; closes an opening at least {wide} wide at {where}, along {way}."
-
-
 def as_report(
     report: CollidersReport, checked: Report, visual: Scene, collision: Scene
 ) -> tuple[Report, Scene]:
     """Return the check of the colliders with a finding for each figure about a link, and the scene
     of the colliders and of what is drawn."""
-    names = {body.id: f"{body.id} (visual)" for body in visual.in_order()}
-    drawn = [replace(body, id=names[body.id], name=names[body.id]) for body in visual.bodies]
-    both = replace(collision, bodies=(*collision.bodies, *drawn))
-    placed = place(replace(visual, bodies=tuple(drawn), order=tuple(names.values())), Settings())
-    findings, told = [*checked.findings], set()
+    drawn = [replace(body, id=_drawn(body.id), name=_drawn(body.id)) for body in visual.in_order()]
+    order = tuple(body.id for body in drawn)
+    placed = place(replace(visual, bodies=tuple(drawn), order=order), Settings())
+    findings, issues = [*checked.findings], [*checked.issues]
     for part in report.parts:
-        for rule, reach, most in (
-            (STICKS_OUT, part.out, report.settings.max_out),
-            (FALLS_SHORT, part.short, report.settings.max_short),
-        ):
-            if reach is not None and (at := reach.farthest) is not None:
-                said = _sentence(part, rule, reach, at, unit_of(report.units))
-                finding = replace(_finding(rule, reach, at, most, names), message=said)
-                findings.append(finding)
-                if finding.severity != "note":
-                    told.add(part.name)
-    open_links = (
-        part
-        for part in report.parts
-        if part.verdict in ("fail", "incomplete") and part.name not in told
-    )
-    issues = (
-        Issue(
-            "not-measured",
-            "error" if part.verdict == "fail" else "warning",
-            *(None, None, f"{part.name}: {part.reason}"),
-        )
-        for part in open_links
-    )
+        own = list(_findings(part, report))
+        findings += own
+        if part.verdict in ("fail", "incomplete") and all(f.severity == "note" for f in own):
+            level = "error" if part.verdict == "fail" else "warning"
+            why = f"{part.name}: {part.reason}"
+            issues.append(Issue("not-measured", level, None, None, why))
     listed = replace(
         checked,
         bodies=(*checked.bodies, *body_reports(placed)),
         findings=tuple(findings),
-        issues=(*checked.issues, *issues),
+        issues=tuple(issues),
     )
-    return listed, both
+    return listed, replace(collision, bodies=(*collision.bodies, *drawn))
 
 
-def _finding(
-    rule: str, reach: Reach, at: Farthest, most: float | None, names: Mapping[str, str]
-) -> Finding:
-    """most: the limit. names: of the drawn bodies."""
-    low, high = reach.bounds
-    is_out, is_open = rule == STICKS_OUT, most is not None and low <= most < high
-    return Finding(
-        id=finding_id(f"{rule} {at.body}", at.nearest_body),
-        a=at.body if is_out else names[at.body],
-        b=names[at.nearest_body] if is_out else at.nearest_body,
-        rule=rule,
-        severity="note" if most is None or high <= most else "warning" if is_open else "error",
-        undecided="limit" if is_open else None,
-        relation="separated",
-        distance=low,
-        witness=Witness(at.point, at.nearest),
-        reason=reach.reason,
-        plan=(),
-    )
+def _findings(part: ColliderPart, report: CollidersReport) -> Iterator[Finding]:
+    """Yield one for each figure that is not 0, about a collider and a drawn body."""
+    unit = unit_of(report.units)
+    for rule, reach, most in part.reaches(report.settings):
+        if reach is None or (at := reach.farthest) is None:
+            continue
+        low, high = reach.bounds
+        said = f"{part.name}: {OF_COLLIDERS[rule]} by {figure(reach.bounds, unit)}"
+        said += f" at {vector(at.point)}"
+        a, b = _drawn(at.body), at.nearest_body
+        if rule == STICKS_OUT:
+            a, b = at.body, _drawn(at.nearest_body)
+            if (opening := part.opening) is not None:
+                wide = with_unit(at_least(opening.diameter), unit)
+                where, way = vector(opening.point), vector(opening.direction)
+                said += f"; closes an opening at least {wide} wide at {where}, along {way}"
+        is_open = most is not None and low <= most < high
+        yield Finding(
+            id=finding_id(f"{rule} {at.body}", at.nearest_body),
+            a=a,
+            b=b,
+            rule=rule,
+            severity="note" if most is None or high <= most else "warning" if is_open else "error",
+            message=f"{said}.",
+            undecided="limit" if is_open else None,
+            relation="separated",
+            distance=low,
+            witness=Witness(at.point, at.nearest),
+            reason=reach.reason,
+            plan=(),
+        )
+
+
+def _drawn(body: str) -> str:
+    """Return its id beside the colliders, some of which may have the same."""
+    return f"{body} (visual)"
