@@ -49,7 +49,7 @@ def enclosing_parts(
     bodies = Bodies(parts, deadline)
     corners: list[list[Point]] = [[] for _ in parts]
     off, cut_error = [0.0] * len(parts), bodies.cut_error(mesh)
-    for number, piece, whole in bodies.assigned(mesh, deadline):
+    for number, piece, whole in bodies.assigned(mesh):
         corners[number] += piece
         off[number] = off[number] if whole else cut_error
     grown = []

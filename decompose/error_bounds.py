@@ -75,7 +75,7 @@ def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NE
     DecompositionError at the deadline.
     """
     bodies = Bodies(parts, deadline)
-    pieces = bodies.assigned(mesh, deadline)
+    pieces = bodies.assigned(mesh)
     error = max((bodies.largest_distance(piece, part) for part, piece, _ in pieces), default=0.0)
     return error + ROUNDINGS * mesh.largest_coordinate if error > 0.0 else 0.0
 
@@ -90,7 +90,7 @@ class Bodies:
         bounds = np.array([surface.mesh.bounds for surface in self._surfaces])
         self._low, self._high = bounds[:, 0], bounds[:, 1]
 
-    def assigned(self, mesh: Mesh, deadline: Deadline) -> Iterator[tuple[int, Polygon, bool]]:
+    def assigned(self, mesh: Mesh) -> Iterator[tuple[int, Polygon, bool]]:
         """Cut the surface of a mesh into pieces near the parts.
 
         Yield (part, piece, whether it is a whole triangle). A point of a triangle is within
@@ -109,7 +109,7 @@ class Bodies:
             least[order].tolist(),
             strict=True,
         ):
-            deadline.check()
+            self._deadline.check()
             if height <= slack:
                 yield part, polygon, True
                 continue

@@ -132,25 +132,29 @@ def command(
     if not options["paths"]:
         raise click.UsageError("give a mesh file or a scene")
     inputs, form, document = plain_call(options, form, output, parts_out)
-    seconds = inputs.limit["body-seconds"]
     scene = load(inputs, least=1)
     if parts_out is not None:
         scene.require_one_unit()
     if not scene.bodies and form == "table":
         return exit_codes.ERROR  # the error is told
     known = ENGINES.get(engine or "", Limits())
-    limits = Limits(max_parts or known.parts, max_vertices or known.vertices, enclose)
-    ending = "" if parts_out is None else parts_out.suffix.lower()
-    bodies = _Splitter(limits, threshold, seed, seconds).split_each(
-        in_links(scene) if ending == URDF else scene.bodies
+    settings = DecompositionOptions(
+        threshold=threshold,
+        seed=seed,
+        max_parts=max_parts or known.parts,
+        max_vertices=max_vertices or known.vertices,
+        enclose=enclose,
+        seconds=inputs.limit["body-seconds"],
     )
+    ending = "" if parts_out is None else parts_out.suffix.lower()
+    bodies = _Splitter(settings).split_each(in_links(scene) if ending == URDF else scene.bodies)
     parts = [part for each in bodies for part in _named(*each)]
     if parts_out is not None and parts:
         _write(parts_out, bodies, scene, inputs)
     report = DecompositionReport(
         tool=tool(),
         units=scene.units,
-        settings=_options(limits, threshold, seed, seconds),
+        settings=settings,
         output=None if parts_out is None else parts_out.as_posix(),
         rounding=written_meshes.rounding(parts, ending) if ending else None,
         bodies=tuple(_body_report(*each, enclose or None) for each in bodies),
@@ -161,17 +165,6 @@ def command(
     if scene.unreadable or not parts:
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if has_failed else exit_codes.CLEAN
-
-
-def _options(limits: Limits, threshold: float, seed: int, seconds: float) -> DecompositionOptions:
-    return DecompositionOptions(
-        threshold=threshold,
-        seed=seed,
-        max_parts=limits.parts,
-        max_vertices=limits.vertices,
-        enclose=limits.enclose,
-        seconds=seconds,
-    )
 
 
 def _tell_failures(report: DecompositionReport) -> bool:
@@ -194,11 +187,16 @@ def _write(output: Path, bodies: Sequence[_Split], scene: Scene, inputs: Inputs)
 class _Splitter:
     """Splits bodies: each distinct mesh once, and fits its parts once to each of its places."""
 
-    def __init__(self, limits: Limits, threshold: float, seed: int, seconds: float) -> None:
+    def __init__(self, asked: DecompositionOptions) -> None:
         self._split = partial(
-            decompose, threshold=threshold, seed=seed, seconds=seconds, cache=user_cache()
+            decompose,
+            threshold=asked.threshold,
+            seed=asked.seed,
+            seconds=asked.seconds,
+            cache=user_cache(),
         )
-        self._place = partial(placed, limits=limits, seconds=seconds)
+        limits = Limits(asked.max_parts, asked.max_vertices, asked.enclose)
+        self._place = partial(placed, limits=limits, seconds=asked.seconds)
         self._known: dict[object, Decomposition | SatcheckError] = {}
 
     def split_each(self, bodies: Sequence[Body]) -> list[_Split]:
