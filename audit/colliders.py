@@ -4,7 +4,7 @@ they fall short of it, and which openings they close.
 The same files are read twice, for visual and for collision geometry. What moves together is
 compared: the bodies of a link, or of the smallest node that has both below.
 
-The core bounds how far one surface reaches out of the union of others (`union_deviation`). Curved
+The core bounds how far one surface reaches out of the union of others (`deviation`). Curved
 shapes are replaced by meshes within them, and the bounds are widened by their sag. An open mesh has
 some unknown fill. So the lower bound is that of the mesh with every fill, and the upper one that of
 its surface alone.
@@ -12,6 +12,7 @@ its surface alone.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import NamedTuple
@@ -158,29 +159,31 @@ def _members(bodies: PlacedBodies) -> Iterator[Member]:
 
 def _grouped(drawn: Iterable[Member], solid: Iterable[Member]) -> dict[str, _Kinds]:
     """What moves together, by name: the bodies of a link. Others are put together by their paths:
-    those below the smallest node that has both kinds below, unless a node in it has, too, and the
-    node itself is no body."""
-    linked: dict[str, _Kinds] = {}
-    loose: dict[str, _Kinds] = {}
+    those below a node that has both kinds below, and is a body or has no such node below."""
+    grouped: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
+    loose: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
+    nodes: tuple[set[str], set[str]] = set(), set()
     for kind, members in enumerate((drawn, solid)):
         for member in members:
-            link = member.body.link
-            group = loose if link is None else linked
-            group.setdefault(link or member.id, _Kinds([], []))[kind].append(member)
-    words = [path.split("/") for path in loose]
-    nodes = {"/".join(each[:k]) for each in words for k in range(1, len(each) + 1)}
-    closed: set[str] = set()  # nodes with a group at or below them
-    for node in sorted(nodes, key=lambda node: (-node.count("/"), node)):
-        below = [path for path in loose if path == node or path.startswith(f"{node}/")]
-        kinds = _Kinds(*(list(chain(*(loose[p][kind] for p in below))) for kind in (0, 1)))
-        if all(kinds) and (node in loose or node not in closed):
-            linked[node] = kinds
-            closed.add(node)
-            for path in below:
-                del loose[path]
-        if node in closed:
-            closed.add(node.rpartition("/")[0])
-    return linked | loose
+            if (link := member.body.link) is not None:
+                grouped[link][kind].append(member)
+                continue
+            loose[member.id][kind].append(member)
+            nodes[kind].update(_nodes(member.id))
+    shared = nodes[0] & nodes[1]
+    inner = {node.rpartition("/")[0] for node in shared}
+    for path, kinds in loose.items():
+        around = (node for node in _nodes(path) if node in shared)
+        home = next((node for node in around if node in loose or node not in inner), path)
+        for kind, members in enumerate(kinds):
+            grouped[home][kind].extend(members)
+    return grouped
+
+
+def _nodes(path: str) -> list[str]:
+    """The path, and those of the nodes that it lies in, the innermost first."""
+    words = path.split("/")
+    return ["/".join(words[:count]) for count in range(len(words), 0, -1)]
 
 
 def _rank(part: ColliderPart) -> tuple[float, ...]:
@@ -282,12 +285,12 @@ def _measured(
     surfaces = [_surface(body, segments) for body in targets]
     low, high = map(np.array, mesh.bounds)
     finest = FINEST * float(np.linalg.norm(high - low))
-    lower, upper, point, narrow = core.union_deviation(mesh, surfaces, finest, RATIO, steps)
+    lower, upper, point, narrow = core.deviation(mesh, surfaces, finest, RATIO, steps)
     reason = None if narrow else _SPENT
     if not all(surface.solid for surface in surfaces):
         closed = (s.closed() if not s.solid else (s, []) for s in surfaces)
         filled = [each for surface, hulls in closed for each in (surface, *hulls)]
-        lower, _, point, narrow = core.union_deviation(mesh, filled, finest, RATIO, steps)
+        lower, _, point, narrow = core.deviation(mesh, filled, finest, RATIO, steps)
         reason = reason if lower >= (1 - 2 * RATIO) * upper - finest else _HOLES
     widening = sag + max(_sag(body, segments) for body in targets)
     if widening > RATIO / 2 * lower:

@@ -74,7 +74,6 @@ from satcheck._native.core import (
     search_thickness,
     sift,
     surface_intersection,
-    union_deviation,
     with_cracks_closed,
 )
 from satcheck.core.conventions import OUTCOMES
@@ -160,7 +159,6 @@ __all__ = [
     "search_thickness",
     "sift",
     "surface_intersection",
-    "union_deviation",
     "with_cracks_closed",
 ]
 

@@ -58,11 +58,11 @@ def outside_error(parts: Sequence[Polytope], surface: Surface, threshold: float)
     """An upper bound of the largest distance of a part's surface from the mesh."""
     unit = threshold * diagonal(surface.mesh)
     meshes = [part.to_mesh() for part in parts]
-    bounds = [deviation(mesh, surface, _SLACKS[0] * unit) for mesh in meshes]
+    bounds = [deviation(mesh, [surface], _SLACKS[0] * unit)[:2] for mesh in meshes]
     for slack in _SLACKS[1:]:
         enough = _WIDE * max(lower for lower, _ in bounds)
         bounds = [
-            deviation(mesh, surface, slack * unit) if bound[1] > enough else bound
+            deviation(mesh, [surface], slack * unit)[:2] if bound[1] > enough else bound
             for mesh, bound in zip(meshes, bounds, strict=True)
         ]
     return max(upper for _, upper in bounds)

@@ -16,7 +16,7 @@ import trimesh
 
 from satcheck.audit import Settings
 from satcheck.audit.colliders import compare
-from satcheck.core import Mesh, Surface, union_deviation
+from satcheck.core import Mesh, Surface, deviation
 from satcheck.report.colliders import ColliderLimits, ColliderPart, CollidersReport, Reach
 from satcheck.scene import Unreadable, load_scene
 from tests.plugin_marks import needs
@@ -546,7 +546,7 @@ def test_samples_never_lie_beyond_the_bounds() -> None:
     points, _ = trimesh.sample.sample_surface(hull, 400, seed=1)
     visual = Surface(Mesh(drawn.vertices, drawn.faces.astype(np.uint32)), True)
     collider = Mesh(hull.vertices, hull.faces.astype(np.uint32))
-    low, high, point, narrow = union_deviation(collider, [visual], 1e-6, 0.01, 10**10)
+    low, high, point, narrow = deviation(collider, [visual], 1e-6, 0.01, 10**10)
     assert narrow
     assert outside(drawn, points).max() <= high <= 1.0101 * low
     assert outside(drawn, np.array([point]))[0] >= low - 1e-9

@@ -50,11 +50,11 @@ def test_deviation_brackets_the_truth(tolerance: float) -> None:
         (box((0, 0, 0), (4, 3, 2)).mesh(), math.sqrt(2)),
     ]
     for outer, truth in cases:
-        lower, upper = deviation(outer, notch, tolerance)
+        lower, upper = deviation(outer, [notch], tolerance)[:2]
         assert lower <= truth <= upper
         assert upper - lower <= tolerance * 1.001
     with pytest.raises(ValueError, match="tolerance"):
-        deviation(CUBE.mesh, CUBE, 0.0)
+        deviation(CUBE.mesh, [CUBE], 0.0)
 
 
 def test_convexity_defect_covers_the_depth_of_the_notch() -> None:

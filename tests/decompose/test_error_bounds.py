@@ -36,7 +36,7 @@ def test_the_bound_holds_what_branch_and_bound_finds(
     mesh: Mesh = request.getfixturevalue(name)
     result = decompose(mesh, threshold=0.2)
     union = Surface(merged([part.to_mesh() for part in result.parts]), True)
-    lower, _ = deviation(mesh, union, 1e-3 * diagonal(mesh))
+    lower = deviation(mesh, [union], 1e-3 * diagonal(mesh))[0]
     assert lower <= result.missing
 
 

@@ -171,24 +171,16 @@ length. Decided exactly. Raises TooManySteps.)");
         R"(Whether a translation, added with one rounding of each coordinate, moves no vertex farther than `length`. The answer
 is exact if nothing is rounded.)");
   m.def("deviation",
-        [](const Mesh& surface_of, const Surface& solid, double tolerance) {
-          Budget budget(kNoEnd, interrupting());
-          const Deviation d = deviation(surface_of, {&solid}, tolerance, 0, budget);
-          return std::make_tuple(d.lower, d.upper);
-        },
-        "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
-        R"((lower, upper) bounds of the largest distance of a point of the surface from the solid, 0 inside; they are at
-most `tolerance` apart, unless the work limit was reached. Branch and bound over triangles: the distance is 1-Lipschitz.)");
-  m.def("union_deviation",
         [](const Mesh& surface_of, const std::vector<const Surface*>& solids, double tolerance, double ratio, std::uint64_t steps) {
           Budget budget(steps, interrupting());
           const Deviation d = deviation(surface_of, solids, tolerance, ratio, budget);
           return std::make_tuple(d.lower, d.upper, to_tuple(d.point), d.narrow);
         },
-        "surface_of"_a, "solids"_a, "tolerance"_a, "ratio"_a, "steps"_a, ReleaseGil(),
-        R"((lower, upper, point, narrow): the same for the union of several surfaces, of which only those that are closed have
-an inside. point: of the surface, at least `lower` away. narrow: the bounds are at most `tolerance`, or that share of the
-lower one, apart; else so many steps, each about a nanosecond, do not suffice.)");
+        "surface_of"_a, "solids"_a, "tolerance"_a, "ratio"_a = 0.0, "steps"_a = kNoEnd, ReleaseGil(),
+        R"((lower, upper, point, narrow): bounds of the largest distance of a point of the surface from the union of the solids,
+which is 0 inside; surfaces that are not closed have no inside. point: of the surface, at least `lower` away. narrow: the
+bounds are at most `tolerance`, or that share of the lower one, apart; else so many steps, each about a nanosecond, do not
+suffice. Branch and bound over triangles: the distance is 1-Lipschitz.)");
   m.def("reaches_deeper",
         [](const Mesh& surface_of, const Surface& solid, double length, std::uint64_t work) {
           if (!solid.solid) throw std::invalid_argument("the surface is not a solid");
