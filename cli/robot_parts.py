@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Final
 
@@ -48,13 +49,11 @@ def write_urdf(
     folder = output.with_suffix("")
     names: dict[tuple[bytes, bytes], str] = {}
     contents: dict[str, bytes] = {}
-    for name, mesh in (part for own in parts.values() for part in own):
-        if (key := mesh.to_bytes()) not in names:
-            plain = _UNSAFE.sub("_", name)
-            names[key] = (
-                f"{plain}.obj" if f"{plain}.obj" not in contents else f"{plain}.{len(names)}.obj"
-            )
-            contents[names[key]] = written_meshes.written([(plain, mesh)], ".obj", None)
+    for name, mesh in chain.from_iterable(parts.values()):
+        plain = _UNSAFE.sub("_", name)
+        plain = f"{plain}.{len(names)}" if f"{plain}.obj" in contents else plain
+        if (file := names.setdefault(mesh.to_bytes(), f"{plain}.obj")) not in contents:
+            contents[file] = written_meshes.written([(plain, mesh)], ".obj", None)
     path = robot.robot.file
     back = os.path.relpath(Path(path).absolute().parent, output.absolute().parent)
     document = urdf_of_parts(

@@ -48,10 +48,10 @@ def enclosing_parts(
     """
     bodies = Bodies(parts, deadline)
     corners: list[list[Point]] = [[] for _ in parts]
-    off, cut_error = [0.0] * len(parts), bodies.cut_error(mesh)
-    for number, piece, whole in bodies.assigned(mesh):
+    off = [0.0] * len(parts)
+    for number, piece, error in bodies.assigned(mesh):
         corners[number] += piece
-        off[number] = off[number] if whole else cut_error
+        off[number] = max(off[number], error)
     grown = []
     for part, own, depth in zip(parts, corners, off, strict=True):
         points = np.unique(np.array(own).reshape(-1, 3), axis=0)
@@ -75,8 +75,7 @@ def _grown(
     starts = [start]
     if vertices is None or vertices >= _BOX:
         starts += [_rounded(box) for box in _boxes(target)]
-    margin = _MARGIN * float(np.abs(target).max()) + off
-    proven = [_proven(each, target, corners, off, margin, deadline) for each in starts]
+    proven = [_proven(each, target, corners, off, deadline) for each in starts]
     smallest = min(filter(None, proven), key=volume, default=None)
     if smallest is None:
         raise DecompositionError(
@@ -87,14 +86,10 @@ def _grown(
 
 
 def _proven(
-    hull: Polytope,
-    target: Floats,
-    corners: Floats,
-    off: float,
-    margin: float,
-    deadline: Deadline,
+    hull: Polytope, target: Floats, corners: Floats, off: float, deadline: Deadline
 ) -> Polytope | None:
     """The hull, grown; None: its numbers are too coarse."""
+    margin = _MARGIN * float(np.abs(target).max()) + off
     for number in range(_ROUNDS):
         if hull.dimension < 3:
             return None

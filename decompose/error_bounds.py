@@ -90,17 +90,19 @@ class Bodies:
         bounds = np.array([surface.mesh.bounds for surface in self._surfaces])
         self._low, self._high = bounds[:, 0], bounds[:, 1]
 
-    def assigned(self, mesh: Mesh) -> Iterator[tuple[int, Polygon, bool]]:
+    def assigned(self, mesh: Mesh) -> Iterator[tuple[int, Polygon, float]]:
         """Cut the surface of a mesh into pieces near the parts.
 
-        Yield (part, piece, whether it is a whole triangle). A point of a triangle is within
-        `cut_error` of the pieces that it was cut into. Raises DecompositionError at the deadline.
+        Yield (part, piece, error). A point of a triangle is within the error of the pieces that it
+        was cut into; 0: it is whole. Raises DecompositionError at the deadline.
         """
         vertices = np.asarray(mesh.vertices)
         triangles = np.asarray(mesh.triangles)
         above = self.heights(vertices)[triangles].max(axis=1)  # (triangles, parts)
         nearest = above.argmin(axis=1)
         least = above[np.arange(len(above)), nearest]
+        planes = sum(len(normals) for normals, _ in self._planes)
+        error = _CUT_ROUNDINGS * planes * mesh.largest_coordinate
         slack = _FIRST_SLACK * diagonal(mesh) + _FIRST_SLACK_FAR * mesh.largest_coordinate
         order = np.argsort(least, kind="stable")
         for polygon, part, height in zip(
@@ -111,16 +113,12 @@ class Bodies:
         ):
             self._deadline.check()
             if height <= slack:
-                yield part, polygon, True
+                yield part, polygon, 0.0
                 continue
             while (pieces := self.cover(polygon, slack)) is None:
                 slack *= _SLACK_GROWTH
             for number, piece in pieces:
-                yield number, piece, False
-
-    def cut_error(self, mesh: Mesh) -> float:
-        planes = sum(len(normals) for normals, _ in self._planes)
-        return _CUT_ROUNDINGS * planes * mesh.largest_coordinate
+                yield number, piece, error
 
     def heights(self, points: Floats) -> Floats:
         """(points, parts): the height above the highest plane of each part; at most 0 inside."""
