@@ -13,7 +13,7 @@ its surface alone.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from itertools import chain
 from typing import NamedTuple
 
@@ -63,14 +63,12 @@ _HOLES = "what fills the holes of a mesh decides"
 _FACETS = "facets replace curved shapes"
 _NO_END = "a half space has no end"
 
-Member = PlacedBody | UnusableBody
-
 
 class _Kinds(NamedTuple):
     """Of one link."""
 
-    visuals: list[Member]
-    colliders: list[Member]
+    visuals: list[PlacedBody | UnusableBody]
+    colliders: list[PlacedBody | UnusableBody]
 
 
 def compare(
@@ -87,8 +85,7 @@ def compare(
         scene.require_one_unit()
         if len(scene.robots) > 1:
             raise SatcheckError("bad-argument", "colliders compares the links of one robot")
-    drawn, solid = (_members(place(scene, Settings())) for scene in (visual, collision))
-    grouped, parts = _grouped(drawn, solid), []
+    grouped, parts = _grouped(place(visual, Settings()), place(collision, Settings())), []
     steps = min(STEPS, STEPS_OF_ALL // (SEARCHES * max(len(grouped), 1)))
     for number, (name, kinds) in enumerate(grouped.items()):
         if progress is not None:
@@ -152,19 +149,14 @@ def _message(report: CollidersReport) -> str:
     return f"{report.verdict.upper()}: {said}."
 
 
-def _members(bodies: PlacedBodies) -> Iterator[Member]:
-    for index in range(len(bodies.ids)):
-        yield bodies.placed.get(index) or bodies.unusable[index]
-
-
-def _grouped(drawn: Iterable[Member], solid: Iterable[Member]) -> dict[str, _Kinds]:
+def _grouped(drawn: PlacedBodies, solid: PlacedBodies) -> dict[str, _Kinds]:
     """What moves together, by name: the bodies of a link. Others are put together by their paths:
     those below a node that has both kinds below, and is a body or has no such node below."""
     grouped: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
     loose: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
     nodes: tuple[set[str], set[str]] = set(), set()
-    for kind, members in enumerate((drawn, solid)):
-        for member in members:
+    for kind, bodies in enumerate((drawn, solid)):
+        for member in chain(bodies.placed.values(), bodies.unusable.values()):
             if (link := member.body.link) is not None:
                 grouped[link][kind].append(member)
                 continue

@@ -56,7 +56,9 @@ def render(report: CollidersReport, checked: Report, page: Page, *, top: int | N
         cells = {
             f"sticks out{named}": [_reach(part.out) for part in shown],
             f"falls short{named}": [_reach(part.short) for part in shown],
-            f"closes{named}": [_opening(part) for part in shown],
+            f"closes{named}": [
+                f">= {at_least(part.opening.diameter)}" if part.opening else "" for part in shown
+            ],
         }
         columns = [Column("link", tuple(part.name for part in shown), named=True)]
         columns += [Column(name, tuple(own), right=True) for name, own in cells.items()]
@@ -84,10 +86,6 @@ def _reach(reach: Reach | None) -> str:
     if reach is None:
         return ""
     return interval(reach.bounds) if reach.bounds[1] else "0"
-
-
-def _opening(part: ColliderPart) -> str:
-    return f">= {at_least(part.opening.diameter)}" if part.opening else ""
 
 
 def as_report(
