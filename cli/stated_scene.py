@@ -106,7 +106,7 @@ def read_stored(path: Path) -> Report | AssetsReport | SamplesReport:
         kind = next((kinds[field] for field in kinds if field in head), Report)
         return cast("Report | AssetsReport | SamplesReport", msgspec.convert(head, kind))
     except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
-        reason = f"no JSON report of this version of satcheck: {error}"
+        reason = f"no report of a check by this version of satcheck: {error}"
         if path.suffix.lower() != ".json":
             reason = "no JSON report: a check writes one with -o report.json"
         raise SatcheckError("bad-report", reason, file=str(path)) from None
