@@ -19,7 +19,7 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopeProof, Region
-from satcheck.verify.exact import Floats, Point, Rejected, dot, normal_of, point, sub
+from satcheck.verify.exact import Floats, Point, Rejected, dot, grouped, normal_of, point, sub
 from satcheck.verify.pairs import index
 from satcheck.verify.surfaces import TINY, Mask, lengths
 from satcheck.verify.world import Exact, Indices, is_flat
@@ -86,9 +86,7 @@ def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: float) -> None:
         raise Rejected(f"a cover has at most {MOST_PARTS:,} parts and {MOST_SETS:,} sets")
     if not cover.half >= depth > 0:
         raise Rejected("the cover leaves out a part of the ball")
-    held: dict[int, list[Box]] = {}
-    for leaf, part in _leaves(cover):
-        held.setdefault(leaf, []).append(part)
+    held = grouped(_leaves(cover))
     _are_far(np.array(held.pop(FAR, [])).reshape(-1, 6), depth)
     with np.errstate(all="ignore"):  # what overflows is rejected
         for number, parts in held.items():

@@ -164,14 +164,9 @@ def is_flat(points: Floats) -> bool:
 
 def welded(vertices: Floats, triangles: Indices) -> tuple[Floats, Indices]:
     """The points that triangles have, each once, and the triangles by them."""
-    used = vertices[triangles.ravel()] + 0.0
-    order = np.lexsort(used.T)
-    in_order = used[order]
-    is_first = np.ones(len(order), dtype=bool)
-    is_first[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
-    number = np.empty(len(order), dtype=np.int64)
-    number[order] = np.cumsum(is_first) - 1
-    return in_order[is_first], number.reshape(-1, 3)
+    used = vertices[triangles.ravel()] + 0.0  # -0.0 is 0.0
+    points, number = np.unique(used, axis=0, return_inverse=True)
+    return points, number.reshape(-1, 3)
 
 
 def rounded(vector: Sequence[Any]) -> Floats:
