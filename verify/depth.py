@@ -87,7 +87,11 @@ def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: float) -> None:
     if not cover.half >= depth > 0:
         raise Rejected("the cover leaves out a part of the ball")
     held = grouped(_leaves(cover))
-    _are_far(np.array(held.pop(FAR, [])).reshape(-1, 6), depth)
+    far = np.array(held.pop(FAR, [])).reshape(-1, 6)
+    steps = np.maximum(np.abs(far[:, :3]) - far[:, 3:], 0.0)  # exact
+    close = lengths(steps) < depth * (1 + 8 * ROUNDOFF)
+    if any(sum(Fraction(c) ** 2 for c in p) < Fraction(depth) ** 2 for p in steps[close].tolist()):
+        raise Rejected("the cover leaves out a part of the ball")
     with np.errstate(all="ignore"):  # what overflows is rejected
         for number, parts in held.items():
             overlap = cover.sets[index(number, len(cover.sets))]
@@ -126,15 +130,6 @@ def _halves(part: Box) -> tuple[Box, Box]:
     lower[axis] -= half
     upper[axis] += half
     return tuple(lower), tuple(upper)  # type: ignore[return-value]
-
-
-def _are_far(parts: Floats, depth: float) -> None:
-    """Rejects parts with a translation that is shorter than the depth."""
-    steps = np.maximum(np.abs(parts[:, :3]) - parts[:, 3:], 0.0)  # exact
-    close = lengths(steps) < depth * (1 + 8 * ROUNDOFF)
-    for step in steps[close].tolist():
-        if sum(Fraction(c) ** 2 for c in step) < Fraction(depth) ** 2:
-            raise Rejected("the cover leaves out a part of the ball")
 
 
 def _is_in_solid(region: Region, body: Exact, origin: Sequence[float]) -> None:

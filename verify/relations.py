@@ -22,7 +22,6 @@ from satcheck.report.certificate import (
 from satcheck.report.values import Relation
 from satcheck.verify.cells import (
     Contacts,
-    Sides,
     chosen,
     contacts_if_apart,
     meet,
@@ -72,7 +71,12 @@ def prove(
                 raise Rejected("the common point is not the same point on both bodies")
             return True
         case "penetrating", PointProof():
-            _common_point_inside(proof, pair)
+            # The point is in the interior of one body and in the other, closed body. The other has
+            # an interior, so points nearby lie inside both.
+            a, b = pair.points(proof.both)
+            inner = (isinstance(x, Curved) and x.side(a) > 0 for x in (pair.a, pair.b))
+            if a != b or not any(inner):
+                raise Rejected("the point does not lie inside both")
             _neither_holds(proof, pair)
         case "penetrating", PolytopeProof():
             if not (isinstance(pair, Pair) and pair.convex):
@@ -99,15 +103,6 @@ def prove_free(proof: Proof, pair: AnyPair) -> None:
         _no_overlap(pair, meeting(pair.a, pair.b))
     else:
         raise Rejected("a certificate of this kind proves no way out")
-
-
-def _common_point_inside(proof: PointProof, pair: AnyPair) -> None:
-    """A point in the interior of one body and in the other, closed body. The other has an interior,
-    so points nearby lie inside both."""
-    a, b = pair.points(proof.both)
-    inner = (isinstance(x, Curved) and x.side(a) > 0 for x in (pair.a, pair.b))
-    if a != b or not any(inner):
-        raise Rejected("the point does not lie inside both")
 
 
 def _neither_holds(proof: PointProof | PolytopeProof, pair: AnyPair) -> None:
@@ -196,15 +191,12 @@ def _ways(
         theirs = {way[::turn][1] for way in ways}
         triangles = [only[::turn][0]] if only else chosen(x, y, pairs, theirs.__contains__)
         for sides in sides_of(triangles, x, y, pairs):
-            yield {way[::turn] for way in _ways_beside(sides, x.world.solid)}
-
-
-def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
-    ways = {sides.front, sides.back} if solid else set()
-    if solid and (sides.front[0] or sides.back[0]):
-        return ways
-    # A sheet within the boundary of a solid is neither inside nor outside of it.
-    return ways | {(True, inside) for inside in (sides.front[1],) if inside == sides.back[1]}
+            beside = {sides.front, sides.back} if x.world.solid else set()
+            is_sheet = not any(in_x for in_x, _ in beside)
+            # A sheet within the boundary of a solid is neither inside nor outside of it.
+            if is_sheet and sides.front[1] == sides.back[1]:
+                beside.add((True, sides.front[1]))
+            yield {way[::turn] for way in beside}
 
 
 def _holds(outer: Exact, alone: Way, pair: Pair) -> None:
