@@ -160,9 +160,16 @@ def _cells(corners: Corners, *surfaces: list[Corners]) -> list[Cell]:
     cells: list[Cell] = [corners]
     normal = normal_of(corners)
     for edge in (cut for others in surfaces for cut in _cuts(corners, normal, others)):
+        across = cross(normal, sub(edge[1], edge[0]))
+        side = half_space(across, dot(across, edge[0]))
         after: list[Cell] = []
         for cell in cells:
-            after += _split(cell, edge, normal) if _enters(cell, edge, normal) else [cell]
+            if _enters(cell, edge, normal):
+                region = [homogeneous(p) for p in cell]
+                halves = (clipped(region, one) for one in (side, opposite(side)))
+                after += [list(map(cartesian, half)) for half in halves]
+            else:
+                after.append(cell)
         cells = after
         if len(cells) > MOST_CELLS:
             raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
@@ -185,14 +192,6 @@ def _enters(cell: Cell, edge: Segment, normal: Vector) -> bool:
         if start >= end:
             return False
     return True
-
-
-def _split(cell: Cell, edge: Segment, normal: Vector) -> list[Cell]:
-    """The cell on either side of the line of the segment."""
-    across = cross(normal, sub(edge[1], edge[0]))
-    side = half_space(across, dot(across, edge[0]))
-    corners = [homogeneous(p) for p in cell]
-    return [list(map(cartesian, clipped(corners, one))) for one in (side, opposite(side))]
 
 
 def look(normal: Vector, cell: Cell, bodies: Sequence[Exact]) -> list[tuple[bool, bool]]:

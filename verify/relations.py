@@ -20,6 +20,7 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.values import Relation
+from satcheck.verify.bodies import Placed, box_gaps
 from satcheck.verify.cells import (
     Contacts,
     chosen,
@@ -40,9 +41,10 @@ from satcheck.verify.exact import (
     normal_of,
     point,
     sign_of,
+    sub,
 )
-from satcheck.verify.pairs import AnyPair, Pair, axis, given, index
-from satcheck.verify.surfaces import common, meeting
+from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, axis, given, index, pair_of
+from satcheck.verify.surfaces import comes_within, common, meeting
 from satcheck.verify.world import Exact, count_by_triangle
 
 # How a point lies: (in A, in B).
@@ -156,6 +158,32 @@ def _prove_by_surfaces(
             _same(pair)
         case _:
             raise Rejected(f"surfaces prove no relation {relation!r}")
+
+
+def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
+    """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
+    may be negative: then the bodies may overlap by less than that."""
+    least = Fraction(tolerance)
+    if max(box_gaps(a, b)) > least:
+        return
+    if a.world is not None and b.world is not None:
+        pair = pair_of(a, b, a.world, b.world)
+        prove("separated", SurfacesProof(), pair, least, Fraction(0))
+        return
+    round_, other = (b, a) if b.world is None else (a, b)
+    centre, radius = round_.ball
+    if other.world is None:
+        along = sub(point(centre), point(other.ball[0]))
+        is_apart = any_pair_of(other, round_).gap(along, least) > 0
+    else:
+        mesh = Exact(other.world, other.world.lattice)
+        middle = mesh.at(centre)
+        reach = max(Fraction(radius) + least, Fraction(0))
+        is_apart = not comes_within(mesh, middle, reach, open_=False)
+        if is_apart and mesh.world.solid and mesh.winding(middle) != 0:
+            raise Rejected("a body that should be apart lies in another")
+    if not is_apart:
+        raise Rejected("bodies that should be apart are within the tolerance")
 
 
 def check_within(pair: Pair) -> None:

@@ -120,7 +120,16 @@ class _Sums:
                 if weight:
                     used.setdefault(n, []).append((number, weight / largest))
         for n, places in used.items():
-            self._is_clear(n, [bounded[number][0] for number, _ in places], most)
+            side = self.patches[n]
+            if isinstance(side, Piece) or side.supports:
+                continue
+            # Something of the body is in front of the plane. Where that is looked at within reach
+            # only, the sum bounds depths up to that: it has to be more than `most`.
+            reach = side.reach
+            if reach is None or Fraction(reach) - self.granted[n] <= most:
+                raise Rejected("a body reaches beyond a plane that should bound it")
+            if not all(side.is_clear(bounded[number][0], reach) for number, _ in places):
+                raise Rejected("a body reaches beyond a plane next to what it should bound")
         limit = most * self.frame.scale
         for number in self._open(bounded, used, most) if bounded else ():
             cell, terms = bounded[number]
@@ -129,18 +138,6 @@ class _Sums:
             for p in map(cartesian, cell.corners(self.frame)):
                 if sum(w * self.patches[n].distance(p) for n, w in shares) > least:
                     raise Rejected("a cell is not shown to be as thin as that")
-
-    def _is_clear(self, n: int, cells: list[Cell], most: Fraction) -> None:
-        """Rejects a plane with something of its body in front of it. Where that is looked at within
-        reach only, the sum bounds depths up to that: it has to be more than `most`."""
-        side = self.patches[n]
-        if isinstance(side, Piece) or side.supports:
-            return
-        reach = side.reach
-        if reach is None or Fraction(reach) - self.granted[n] <= most:
-            raise Rejected("a body reaches beyond a plane that should bound it")
-        if not all(side.is_clear(cell, reach) for cell in cells):
-            raise Rejected("a body reaches beyond a plane next to what it should bound")
 
     def _open(
         self,

@@ -4,7 +4,7 @@ motions, in rational numbers."""
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
 from operator import add
@@ -14,7 +14,6 @@ import numpy as np
 
 from satcheck.report.statics import (
     BodyContact,
-    ContactPoint,
     FirstMotion,
     Statics,
     SupportedBody,
@@ -26,7 +25,8 @@ from satcheck.verify.answers import body_terms, checked, once
 from satcheck.verify.bodies import Placed
 from satcheck.verify.exact import NotCertified, Point, Rejected, cross, dot, point, sub
 from satcheck.verify.pairs import vector
-from satcheck.verify.statics.contacts import ROUNDING, Contacts, Place, check_apart
+from satcheck.verify.relations import check_apart
+from satcheck.verify.statics.contacts import ROUNDING, Contacts, Place
 from satcheck.verify.statics.weights import Weight, covers_once, weight_of
 
 SAME_WEIGHT = 1e-9  # relative
@@ -156,7 +156,11 @@ class Claims:
             for at in contact.points:
                 if at.force is None:
                     continue
-                self._check_force(contact, at, strict)
+                place = self.contacts.at(contact, at)
+                if strict and not self.contacts.is_strict(contact.a, contact.b, place):
+                    raise Rejected(f"{contact.a} and {contact.b}: a force needs the tolerance")
+                friction = Fraction(self._friction(contact.a, contact.b))
+                _check_in_cone(vector(at.force), vector(place.normal.tolist()), friction)
                 for name, sign in ((contact.a, 1), (contact.b, -1)):
                     if name in members:
                         force = point(sign * c for c in vector(at.force))
@@ -171,13 +175,6 @@ class Claims:
             for other in self.contacts.near(name):
                 if self.bodies[other].bounds is not None:
                     self.contacts.check_shallow(name, other)
-
-    def _check_force(self, contact: BodyContact, point: ContactPoint, strict: bool) -> None:
-        place = self.contacts.at(contact, point)
-        if strict and not self.contacts.is_strict(contact.a, contact.b, place):
-            raise Rejected(f"{contact.a} and {contact.b}: a force needs the tolerance")
-        friction = Fraction(self._friction(contact.a, contact.b))
-        _check_in_cone(vector(point.force or ()), vector(place.normal.tolist()), friction)
 
     def _check_moves(self, body: SupportedBody) -> None:
         """By a motion of all that moves in contact with it: no forces hold these bodies."""
@@ -219,7 +216,13 @@ class Claims:
                     own, against = (_velocity_at(motions.get(n), at) for n in (name, other))
                     worst = max(worst, _resistance(place, friction, sub(own, against)))
                 self.contacts.check_shallow(name, other)
-        _check_power(motions.values(), self.down, worst)
+        moving = motions.values()
+        power = sum((w.mass * dot(vector(m.velocity), self.down) for m, w in moving), Fraction(0))
+        if power <= 0:
+            raise Rejected("gravity does no work along the motion")
+        # Forces f >= 0 with f * worst < power cannot stop it.
+        if Fraction(worst) * LEAST_FACTOR * sum(weight.mass for _, weight in moving) > power:
+            raise Rejected("a contact resists the motion")
 
     def _check_afloat(self) -> None:
         """All bodies that float, together: none of them touches another one."""
@@ -292,15 +295,3 @@ def _resistance(place: Place, friction: float, relative: Point) -> float:
     across = [r - opening * c for r, c in zip(relative, n, strict=True)]
     sliding = math.sqrt(dot(across, across))
     return max(friction * sliding - float(opening), 0.0)
-
-
-def _check_power(motions: Collection[Motion], down: Point, worst: float) -> None:
-    """Rejects a motion along which gravity does no work, or which contacts resist: by `worst`, the
-    largest _resistance. Forces f >= 0 with f * worst < power cannot stop it."""
-    works = (weight.mass * dot(vector(first.velocity), down) for first, weight in motions)
-    power = sum(works, Fraction(0))
-    if power <= 0:
-        raise Rejected("gravity does no work along the motion")
-    total = sum((weight.mass for _, weight in motions), Fraction(0))
-    if Fraction(worst) * LEAST_FACTOR * total > power:
-        raise Rejected("a contact resists the motion")

@@ -10,21 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cache, cached_property
-from math import hypot
 
 import numpy as np
 
-from satcheck.core.shapes import Sphere
 from satcheck.report.certificate import SurfacesProof
 from satcheck.report.statics import BodyContact, ContactPoint
 from satcheck.verify.bodies import Placed, box_gaps
-from satcheck.verify.exact import Floats, NotCertified, Rejected, cross, grouped, point, sub
+from satcheck.verify.exact import Floats, NotCertified, Rejected, cross, grouped
 from satcheck.verify.findings import prove_way_out
-from satcheck.verify.pairs import any_pair_of, pair_of, vector
-from satcheck.verify.relations import prove
-from satcheck.verify.surfaces import comes_within, near_pairs, next_points
+from satcheck.verify.pairs import vector
+from satcheck.verify.relations import check_apart
+from satcheck.verify.surfaces import near_pairs, next_points
 from satcheck.verify.world import Exact, Indices, World
 
 SLACK = 1e-6
@@ -34,34 +31,6 @@ PARALLEL = 1e-6
 MOST_NEAR = 300_000
 # The sine of an angle below which two faces are one plane; that of the search is smaller.
 FLAT = 1e-10
-
-
-def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
-    """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
-    may be negative: then the bodies may overlap by less than that."""
-    least = Fraction(tolerance)
-    if max(box_gaps(a, b)) > least:
-        return
-    if a.world is not None and b.world is not None:
-        pair = pair_of(a, b, a.world, b.world)
-        prove("separated", SurfacesProof(), pair, least, Fraction(0))
-        return
-    round_, other = (b, a) if b.world is None else (a, b)
-    centre, radius = ball(round_)
-    if other.world is None:
-        along = sub(point(centre), point(ball(other)[0]))
-        is_apart = any_pair_of(other, round_).gap(along, least) > 0
-    else:
-        mesh = Exact(other.world, other.world.lattice)
-        middle = mesh.at(centre)
-        reach = max(Fraction(radius) + least, Fraction(0))
-        is_apart = not comes_within(mesh, middle, reach, open_=False)
-        if is_apart and mesh.world.solid and mesh.winding(middle) != 0:
-            raise Rejected("a body that should be apart lies in another")
-    if not is_apart:
-        raise Rejected("bodies that should be apart are within the tolerance")
-
-
 # How far two computations of one contact may be off: of the largest coordinate, and of a normal.
 SAME_PLACE, SAME_NORMAL = 1e-9, 1e-6
 # Of the rounding of coordinates, as in the search for contacts, and as much to spare.
@@ -112,12 +81,18 @@ class Contacts:
         if of_a is not None and of_b is not None:
             return places_of(of_a, of_b, tolerance, rounding)
         if of_b is not None:
-            centre, radius = ball(one)
+            centre, radius = one.ball
             return places_of_ball(np.array(centre), radius, of_b, tolerance, rounding)
         if of_a is not None:
             return [place.turned for place in self._places(b, a)]
-        (p, r), (q, s) = ball(one), ball(other)
-        return place_of_balls(np.array(p), r, np.array(q), s, tolerance)
+        (p, r), (q, s) = one.ball, other.ball
+        step = np.subtract(p, q)
+        distance = float(np.linalg.norm(step))
+        height = distance - r - s
+        if abs(height) > tolerance * (1 + SLACK) or distance == 0:
+            return []
+        n = step / distance
+        return [Place(np.array(q) + n * (s + 0.5 * height), n, height, True)]
 
     @cached_property
     def _surfaces(self) -> dict[str, Surface]:
@@ -201,18 +176,6 @@ def _passes(check: Callable[..., None], *arguments: object) -> bool:
     except Rejected:
         return False
     return True
-
-
-def ball(body: Placed) -> tuple[tuple[float, float, float], float]:
-    """(centre, radius). Raises NotCertified for other curved shapes, and for balls that are scaled
-    unevenly."""
-    image = None if body.curved is None else body.curved.image
-    if image is None or not isinstance(image.primitive, Sphere):
-        raise NotCertified(f"{body.id}: the contacts of such a shape are not certified")
-    stretch = [hypot(*column) for column in image.columns]
-    if max(stretch) - min(stretch) > 1e-12 * max(stretch):
-        raise NotCertified(f"{body.id}: the contacts of such a shape are not certified")
-    return image.origin, image.primitive.radius * stretch[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -402,16 +365,3 @@ def places_of_ball(
         if all(float(((c - foot) @ n).max()) <= 4 * rounding for c in beside):
             places.append(Place(foot, n, distance - radius, True))
     return places
-
-
-def place_of_balls(
-    centre: Floats, radius: float, other: Floats, other_radius: float, tolerance: float
-) -> list[Place]:
-    """Of two balls, A first."""
-    step = centre - other
-    distance = float(np.linalg.norm(step))
-    height = distance - radius - other_radius
-    if abs(height) > tolerance * (1 + SLACK) or distance == 0:
-        return []
-    n = step / distance
-    return [Place(other + n * (other_radius + 0.5 * height), n, height, True)]
