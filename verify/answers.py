@@ -116,7 +116,10 @@ def check_answer(finding: InsideFinding, body: Placed, region: Placed, tolerance
         raise Rejected("a region is a closed mesh")
     _check_form(finding, convex=region.convex)
     if region.convex:
-        _check_beyond_faces(finding, body, region.world, tolerance)
+        if (finding.answer == "yes") is _is_beyond(body, region.world, tolerance):
+            raise Rejected("how far the body lies beyond the faces contradicts the answer")
+        if finding.sticks_out and not _is_beyond(body, region.world, finding.sticks_out):
+            raise Rejected("the body does not stick out as far as that")
         return
     if body.world is None:
         raise NotCertified("a curved shape in a region that is not convex")
@@ -143,17 +146,6 @@ def _check_form(finding: InsideFinding, *, convex: bool) -> None:
     for name, wanted in expected.items():
         if (getattr(finding, name) is not None) != wanted:
             raise Rejected(f"{name} {'is missing' if wanted else 'does not belong to the answer'}")
-
-
-def _check_beyond_faces(
-    finding: InsideFinding, body: Placed, region: World, tolerance: float
-) -> None:
-    if (finding.answer == "yes") is _is_beyond(body, region, tolerance):
-        raise Rejected(
-            "how far the body lies beyond the faces of the region contradicts the answer"
-        )
-    if finding.sticks_out and not _is_beyond(body, region, finding.sticks_out):
-        raise Rejected("the body does not stick out as far as that")
 
 
 def _is_beyond(body: Placed, region: World, limit: float) -> bool:

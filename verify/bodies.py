@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from msgspec import to_builtins
 
-from satcheck.core.shapes import HalfSpace, Primitive, image_of, is_curved
+from satcheck.core.shapes import HalfSpace, Primitive, Sphere, image_of, is_curved
 from satcheck.report.bodies import BodyReport
 from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshHealth, Refused, Scene
@@ -26,7 +26,7 @@ from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.planar.outline import shape_from
 from satcheck.verify.curved import Curved
-from satcheck.verify.exact import Floats, Point, Rejected, point, sub
+from satcheck.verify.exact import Floats, NotCertified, Point, Rejected, point, sub
 from satcheck.verify.meshes import bounds_nothing, is_balanced, is_convex, with_backs
 from satcheck.verify.world import Exact, Indices, World, placed
 
@@ -120,6 +120,17 @@ class Placed:
         if self.world is not None:
             return self.world.bounds
         return None if self.curved is None else self.curved.bounds
+
+    @property
+    def ball(self) -> tuple[tuple[float, float, float], float]:
+        """The centre and the radius of a ball. Raises NotCertified for other shapes, and for balls
+        that are scaled unevenly."""
+        image = None if self.curved is None else self.curved.image
+        if image is not None and isinstance(image.primitive, Sphere):
+            stretch = [math.hypot(*column) for column in image.columns]
+            if max(stretch) - min(stretch) <= SAME * max(stretch):
+                return image.origin, image.primitive.radius * stretch[0]
+        raise NotCertified(f"{self.id}: the contacts of such a shape are not certified")
 
     def moved(self, offset: list[float]) -> Placed:
         """Each coordinate is rounded once."""

@@ -40,6 +40,7 @@ from satcheck.verify.exact import (
     clipped,
     cross,
     dot,
+    grouped,
     half_space,
     homogeneous,
     normal_of,
@@ -56,7 +57,7 @@ Piece = tuple[Any, Any, Any]  # the corners of a triangle, rational
 Contacts = Sequence[tuple[int, int]]
 ATTEMPTS = 8  # points of a cell, until one lies on no triangle of another plane
 MOST_CELLS = 200_000
-BLOCK = 256  # triangles whose own partners are looked up at once
+BLOCK = 256  # triangles looked at at once; the first few reveal most false claims
 FIRST = 4  # triangles of each region, most of which show how it lies
 
 
@@ -77,19 +78,23 @@ def sides_of(
     """Both sides of the cells that all they share with other triangles of A and B cut these
     triangles of A into. contacts: all pairs in which they meet B."""
     bodies = [a] if b is None else [a, b]
-    partners: dict[int, list[Corners]] = {}
-    for s, t in contacts:
-        if b is not None:
-            partners.setdefault(s, []).append(b.corners(t))
+    partners = grouped((s, b.corners(t)) for s, t in contacts) if b is not None else {}
     total = 0
-    for corners, own, t in _with_own_partners(a, triangles):
-        cells = _cells(corners, partners.get(t, []), own)
-        total += len(cells)
-        if total > MOST_CELLS:
-            raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
-        for cell in cells:
-            fronts, backs = zip(*look(normal_of(corners), cell, bodies), strict=True)
-            yield Sides(t, cell, fronts, backs)
+    for start in range(0, len(triangles), BLOCK):
+        block = triangles[start : start + BLOCK]
+        met = meeting(a.part(block), a) if a.world.solid else ()
+        own = grouped((block[s], a.corners(u)) for s, u in met if block[s] != u)
+        for t in block:
+            corners = a.corners(t)
+            if not any(normal_of(corners)):
+                continue
+            cells = _cells(corners, partners.get(t, []), own.get(t, []))
+            total += len(cells)
+            if total > MOST_CELLS:
+                raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
+            for cell in cells:
+                fronts, backs = zip(*look(normal_of(corners), cell, bodies), strict=True)
+                yield Sides(t, cell, fronts, backs)
 
 
 def chosen(a: Exact, b: Exact, contacts: Contacts, wanted: Callable[[bool], bool]) -> list[int]:
@@ -118,10 +123,7 @@ def _regions(a: Exact, without: set[int]) -> list[list[int]]:
     left = [t for t in range(len(a.world.triangles)) if t not in without]
     triangles = a.world.triangles[left]
     labels = connected(triangles, len(a.world.vertices))[triangles[:, 0]]
-    regions: dict[int, list[int]] = {}
-    for t, label in zip(left, labels.tolist(), strict=True):
-        regions.setdefault(label, []).append(t)
-    return list(regions.values())
+    return list(grouped(zip(labels.tolist(), left, strict=True)).values())
 
 
 def sheets_among(body: Exact, contacts: Contacts, side: int) -> set[int]:
@@ -132,23 +134,6 @@ def sheets_among(body: Exact, contacts: Contacts, side: int) -> set[int]:
         return set(triangles)
     beside = sides_of(triangles, body)
     return {sides.triangle for sides in beside if not any(sides.front + sides.back)}
-
-
-def _with_own_partners(
-    a: Exact, triangles: list[int]
-) -> Iterator[tuple[Corners, list[Corners], int]]:
-    """The corners of those that have an area, and of the other triangles of A that they meet, if it
-    has an inside; in blocks, because the first few triangles reveal most false claims."""
-    for start in range(0, len(triangles), BLOCK):
-        block = triangles[start : start + BLOCK]
-        own: dict[int, list[Corners]] = {}
-        for s, u in meeting(a.part(block), a) if a.world.solid else ():
-            if block[s] != u:
-                own.setdefault(block[s], []).append(a.corners(u))
-        for t in block:
-            corners = a.corners(t)
-            if any(normal_of(corners)):
-                yield corners, own.get(t, []), t
 
 
 def _cuts(corners: Corners, normal: Vector, others: list[Corners]) -> list[Segment]:
@@ -175,9 +160,16 @@ def _cells(corners: Corners, *surfaces: list[Corners]) -> list[Cell]:
     cells: list[Cell] = [corners]
     normal = normal_of(corners)
     for edge in (cut for others in surfaces for cut in _cuts(corners, normal, others)):
+        across = cross(normal, sub(edge[1], edge[0]))
+        side = half_space(across, dot(across, edge[0]))
         after: list[Cell] = []
         for cell in cells:
-            after += _split(cell, edge, normal) if _enters(cell, edge, normal) else [cell]
+            if _enters(cell, edge, normal):
+                region = [homogeneous(p) for p in cell]
+                halves = (clipped(region, one) for one in (side, opposite(side)))
+                after += [list(map(cartesian, half)) for half in halves]
+            else:
+                after.append(cell)
         cells = after
         if len(cells) > MOST_CELLS:
             raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
@@ -200,14 +192,6 @@ def _enters(cell: Cell, edge: Segment, normal: Vector) -> bool:
         if start >= end:
             return False
     return True
-
-
-def _split(cell: Cell, edge: Segment, normal: Vector) -> list[Cell]:
-    """The cell on either side of the line of the segment."""
-    across = cross(normal, sub(edge[1], edge[0]))
-    side = half_space(across, dot(across, edge[0]))
-    corners = [homogeneous(p) for p in cell]
-    return [list(map(cartesian, clipped(corners, one))) for one in (side, opposite(side))]
 
 
 def look(normal: Vector, cell: Cell, bodies: Sequence[Exact]) -> list[tuple[bool, bool]]:
@@ -240,17 +224,15 @@ def meet(a: Exact, b: Exact, contacts: Contacts, across: int | None = None) -> b
     """Whether one of these pairs of triangles has a common point of both boundaries. across: of
     prisms of one height along this axis, a point between their ends."""
     of_a, of_b = (cache(partial(boundary_of, body)) for body in (a, b))
+    end = 0 if across is None else abs(a.points[0][across])
     for s, t in contacts:
         for p, q in product(of_a(s), of_b(t)):
             shared = common(p, q)
-            if shared and (across is None or not _is_at_end(shared, a, across)):
+            if shared and (
+                across is None or abs(sum(x[across] for x in shared)) != end * len(shared)
+            ):
                 return True
     return False
-
-
-def _is_at_end(shared: list[Point], prism: Exact, across: int) -> bool:
-    middle = sum((p[across] for p in shared), Fraction()) / len(shared)
-    return abs(middle) == abs(prism.points[0][across])
 
 
 def contacts_if_apart(
@@ -277,11 +259,7 @@ CROSSING = 4  # changes around the line: A, B, A, B
 
 def no_crossing(a: Exact, b: Exact, contacts: Contacts) -> None:
     """Rejects surfaces that cross, or lie in each other. contacts: all pairs that meet."""
-    of_a: dict[int, list[int]] = {}
-    of_b: dict[int, list[int]] = {}
-    for s, t in contacts:
-        of_a.setdefault(t, []).append(s)
-        of_b.setdefault(s, []).append(t)
+    of_a, of_b = grouped((t, s) for s, t in contacts), grouped(contacts)
     for s, t in contacts:
         shared = common(a.corners(s), b.corners(t))
         if len(shared) > 2:

@@ -7,6 +7,7 @@ are not covered if the report has values for them.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -128,10 +129,7 @@ CERTIFIED = {
 def uncovered(document: dict[str, Any], left: Iterable[str]) -> tuple[Uncovered, ...]:
     """The fields with a value that is not proven. left: of each finding the certified fields that
     have a value and are not proven."""
-    counts: dict[str, int] = {}
-    for field in left:
-        counts[field] = counts.get(field, 0) + 1
-    fields = []
+    counts, fields = Counter(left), []
     for field, cover in COVERAGE.items():
         if cover.kind == "certified" and field in counts:
             fields.append(Uncovered(field, cover.kind, cover.called, counts[field]))

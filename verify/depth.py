@@ -19,7 +19,7 @@ from fractions import Fraction
 import numpy as np
 
 from satcheck.report.certificate import Cover, OverlapSet, Polytope, PolytopeProof, Region
-from satcheck.verify.exact import Floats, Point, Rejected, dot, normal_of, point, sub
+from satcheck.verify.exact import Floats, Point, Rejected, dot, grouped, normal_of, point, sub
 from satcheck.verify.pairs import index
 from satcheck.verify.surfaces import TINY, Mask, lengths
 from satcheck.verify.world import Exact, Indices, is_flat
@@ -86,10 +86,12 @@ def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: float) -> None:
         raise Rejected(f"a cover has at most {MOST_PARTS:,} parts and {MOST_SETS:,} sets")
     if not cover.half >= depth > 0:
         raise Rejected("the cover leaves out a part of the ball")
-    held: dict[int, list[Box]] = {}
-    for leaf, part in _leaves(cover):
-        held.setdefault(leaf, []).append(part)
-    _are_far(np.array(held.pop(FAR, [])).reshape(-1, 6), depth)
+    held = grouped(_leaves(cover))
+    far = np.array(held.pop(FAR, [])).reshape(-1, 6)
+    steps = np.maximum(np.abs(far[:, :3]) - far[:, 3:], 0.0)  # exact
+    close = lengths(steps) < depth * (1 + 8 * ROUNDOFF)
+    if any(sum(Fraction(c) ** 2 for c in p) < Fraction(depth) ** 2 for p in steps[close].tolist()):
+        raise Rejected("the cover leaves out a part of the ball")
     with np.errstate(all="ignore"):  # what overflows is rejected
         for number, parts in held.items():
             overlap = cover.sets[index(number, len(cover.sets))]
@@ -128,15 +130,6 @@ def _halves(part: Box) -> tuple[Box, Box]:
     lower[axis] -= half
     upper[axis] += half
     return tuple(lower), tuple(upper)  # type: ignore[return-value]
-
-
-def _are_far(parts: Floats, depth: float) -> None:
-    """Rejects parts with a translation that is shorter than the depth."""
-    steps = np.maximum(np.abs(parts[:, :3]) - parts[:, 3:], 0.0)  # exact
-    close = lengths(steps) < depth * (1 + 8 * ROUNDOFF)
-    for step in steps[close].tolist():
-        if sum(Fraction(c) ** 2 for c in step) < Fraction(depth) ** 2:
-            raise Rejected("the cover leaves out a part of the ball")
 
 
 def _is_in_solid(region: Region, body: Exact, origin: Sequence[float]) -> None:

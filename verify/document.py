@@ -21,7 +21,6 @@ from satcheck.report.report import (
     Exempt,
     Finding,
     PairCounts,
-    Report,
     RuleReport,
     Summary,
     Tool,
@@ -270,7 +269,13 @@ class _Report:
         for key in Summary.__struct_fields__:
             if getattr(report.summary, key) != (follows := getattr(expected, key)):
                 raise Rejected(f"the summary's {key} that follows from the findings is {follows!r}")
-        _check_effects(report, total)
+        names = Counter(effect.effect for effect in report.effects)
+        steps = set(EFFECTS) if report.motions else set(EFFECTS) - {"sweep"}
+        if names.keys() != steps or names.total() > len(names):
+            raise Rejected("the list of effects has each of them once")
+        for effect in report.effects:
+            if effect.pairs + sum(effect.not_run.values()) != total:
+                raise Rejected(f"the pairs of the effect {effect.effect} are not all pairs")
         truncated = report.truncated
         if (0 if truncated is None else truncated.pairs) != pruned + left_open:
             raise Rejected(f"the findings leave out {pruned + left_open} pairs")
@@ -312,13 +317,3 @@ def rule_book(exempt: Exempt, rules: Sequence[RuleReport], bodies: Sequence[Plac
         frozenset(exempt.groups),
         check_static=not exempt.static_pairs,
     )
-
-
-def _check_effects(report: Report, total: int) -> None:
-    names = Counter(effect.effect for effect in report.effects)
-    expected = set(EFFECTS) if report.motions else set(EFFECTS) - {"sweep"}
-    if names.keys() != expected or names.total() > len(names):
-        raise Rejected("the list of effects has each of them once")
-    for effect in report.effects:
-        if effect.pairs + sum(effect.not_run.values()) != total:
-            raise Rejected(f"the pairs of the effect {effect.effect} are not all pairs")

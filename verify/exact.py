@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations
+from itertools import chain, combinations
 from math import gcd, isqrt, lcm
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ Point = tuple[Fraction, Fraction, Fraction]
 Vector = tuple[Any, Any, Any]  # of integers or rationals
 Homogeneous = tuple[int, int, int, int]
 
+Key = TypeVar("Key")
+Item = TypeVar("Item")
+UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 ROOT_BITS = 128
 # Bits of the roots of a sum, in turn.
 BITS = (64, 256, 1024, 4096)
@@ -56,6 +59,14 @@ def point(p: Iterable[Any]) -> Point:
     """Three numbers, each exactly."""
     x, y, z = map(Fraction, p)
     return x, y, z
+
+
+def grouped(pairs: Iterable[tuple[Key, Item]]) -> dict[Key, list[Item]]:
+    """The second parts of pairs, by their first ones."""
+    groups: dict[Key, list[Item]] = {}
+    for key, item in pairs:
+        groups.setdefault(key, []).append(item)
+    return groups
 
 
 def sub(p: Vector, q: Vector) -> Vector:
@@ -131,21 +142,16 @@ def half_spaces(t: Sequence[Vector]) -> list[Homogeneous]:
     one with an area first those of its plane, then those of its edges."""
     n = normal_of(t)
     if any(n):
-        normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
-        anchors = [t[0], t[0], *t]
+        planes = [(n, t[0])]
+        ends = [(cross(sub(t[(k + 1) % 3], p), n), p) for k, p in enumerate(t)]
     else:
         spans = [(p, q) for p in t for q in t if p != q]
         p, q = max(spans, key=lambda s: dot(sub(*s), sub(*s)), default=(t[0], t[0]))
         along = sub(q, p)
-        units = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
-        across = [cross(along, u) for u in units] if any(along) else units
-        normals = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
-        anchors = [q] + [p] * (len(normals) - 1)
-    return [half_space(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
-
-
-def _negated(v: Vector) -> Vector:
-    return -v[0], -v[1], -v[2]
+        planes = [(cross(along, u) if any(along) else u, p) for u in UNITS]
+        ends = [(along, q), (sub(p, q), p)]
+    both = [half_space(v, dot(v, p)) for v, p in planes]
+    return [*both, *map(opposite, both), *(half_space(v, dot(v, p)) for v, p in ends)]
 
 
 def nearest_to_origin(points: Sequence[IntVector]) -> tuple[Point, dict[int, Fraction]]:
@@ -154,19 +160,14 @@ def nearest_to_origin(points: Sequence[IntVector]) -> tuple[Point, dict[int, Fra
     By trying every subset of up to four: the nearest point x is a convex combination of one of
     them, and the one for which no point v has v.x < x.x.
     """
-    found = _feet(points)  # one of them is it: no convex hull is without a nearest point
-    return next((x, weights) for x, weights in found if all(dot(v, x) >= dot(x, x) for v in points))
-
-
-def _feet(points: Sequence[IntVector]) -> Iterator[tuple[Point, dict[int, Fraction]]]:
-    """The point nearest to the origin of the hull of each subset, if it lies inside."""
-    for size in range(1, 5):
-        for chosen in combinations(range(len(points)), size):
-            weights = _foot([points[k] for k in chosen])
-            if weights is not None and min(weights) >= 0:
-                shares = dict(zip(chosen, weights, strict=True))
-                foot = (sum(w * points[k][axis] for k, w in shares.items()) for axis in range(3))
-                yield point(foot), shares
+    for chosen in chain.from_iterable(combinations(range(len(points)), n) for n in range(1, 5)):
+        weights = _foot([points[k] for k in chosen])
+        if weights is not None and min(weights) >= 0:
+            shares = dict(zip(chosen, weights, strict=True))
+            x = point(sum(w * points[k][axis] for k, w in shares.items()) for axis in range(3))
+            if all(dot(v, x) >= dot(x, x) for v in points):
+                return x, shares
+    raise ValueError("the hull of no points has no nearest point")
 
 
 def _foot(points: Sequence[IntVector]) -> list[Fraction] | None:
@@ -213,15 +214,12 @@ def sign_of(c: Fraction, less: Sequence[Fraction] = (), more: Sequence[Fraction]
     A sum of square roots of rationals, all with one sign, is rational only if each root is. So
     narrower bounds find every sign except 0, and 0 comes only from exact roots.
     """
-    taken, added = Counter(less) - Counter(more), Counter(more) - Counter(less)
+    count = Counter(more)
+    count.subtract(less)
     for bits in BITS:
-        low = high = c
-        for p in taken.elements():
-            below, above = root(p, bits)
-            low, high = low - above, high - below
-        for p in added.elements():
-            below, above = root(p, bits)
-            low, high = low + below, high + above
+        roots = [(root(p, bits), n) for p, n in count.items()]
+        low = c + sum(n * ends[n < 0] for ends, n in roots)
+        high = c + sum(n * ends[n > 0] for ends, n in roots)
         if low > 0 or high < 0 or low == high == 0:
             return (low > 0) - (high < 0)
     raise Rejected("a length is too close to another one to be told from it")

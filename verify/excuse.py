@@ -206,7 +206,11 @@ class _Reach:
                 raise Rejected(f"how deep a surface reaches is open after {self.pieces:,} pieces")
             closest = self._closest(piece, near)
             if closest is not None:
-                halves = np.array(list(_halves(piece)))
+                # Across the longest edge.
+                k = int(lengths(np.roll(piece, -1, axis=0) - piece).argmax())
+                p, q, apex = np.roll(piece, -k, axis=0)
+                middle = 0.5 * p + 0.5 * q
+                halves = np.array([[p, middle, apex], [middle, q, apex]])
                 left = halves[~self.is_shallow(halves)]
                 pending += [(half, closest, halvings + 1) for half in left]
 
@@ -243,12 +247,3 @@ class _Reach:
                 return None
         kept: Indices = near[least <= (surface + 2 * radius) * (1 + SUM_ERROR)]
         return kept
-
-
-def _halves(piece: Floats) -> Iterator[Floats]:
-    """Of a piece cut across its longest edge."""
-    k = int(lengths(np.roll(piece, -1, axis=0) - piece).argmax())
-    p, q, apex = piece[k], piece[(k + 1) % 3], piece[(k + 2) % 3]
-    middle = 0.5 * p + 0.5 * q
-    yield np.array([p, middle, apex])
-    yield np.array([middle, q, apex])

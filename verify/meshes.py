@@ -93,7 +93,10 @@ def _flaps(corners: Indices) -> Mask:
     """The patches that remain after removing, again and again, patches with a rim of their own: an
     open edge at which no other patch is left."""
     edges, runs = _edges(corners)
-    patch = _patches(edges)
+    # Patches of triangles are connected through edges of two triangles.
+    of_two = np.bincount(edges.ravel())[edges] == 2
+    joints = np.where(of_two, edges, edges.size + np.arange(edges.size).reshape(-1, 3))
+    patch = connected(joints, 2 * edges.size)[joints[:, 0]]
     taken = np.zeros(len(corners), dtype=bool)
     while True:
         left, of = edges[~taken], patch[~taken]
@@ -105,14 +108,6 @@ def _flaps(corners: Indices) -> Mask:
         if not len(flaps):
             return taken
         taken |= np.isin(patch, flaps)
-
-
-def _patches(edges: Indices) -> Indices:
-    """Of each triangle the patch, connected through edges of two triangles."""
-    of_two = np.bincount(edges.ravel())[edges] == 2
-    own = edges.size + np.arange(edges.size).reshape(-1, 3)
-    joints = np.where(of_two, edges, own)
-    return connected(joints, 2 * edges.size)[joints[:, 0]]
 
 
 def _edges(corners: Indices) -> tuple[Indices, Indices]:

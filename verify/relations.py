@@ -20,9 +20,9 @@ from satcheck.report.certificate import (
     SurfacesProof,
 )
 from satcheck.report.values import Relation
+from satcheck.verify.bodies import Placed, box_gaps
 from satcheck.verify.cells import (
     Contacts,
-    Sides,
     chosen,
     contacts_if_apart,
     meet,
@@ -41,9 +41,10 @@ from satcheck.verify.exact import (
     normal_of,
     point,
     sign_of,
+    sub,
 )
-from satcheck.verify.pairs import AnyPair, Pair, axis, given, index
-from satcheck.verify.surfaces import common, meeting
+from satcheck.verify.pairs import AnyPair, Pair, any_pair_of, axis, given, index, pair_of
+from satcheck.verify.surfaces import comes_within, common, meeting
 from satcheck.verify.world import Exact, count_by_triangle
 
 # How a point lies: (in A, in B).
@@ -72,7 +73,12 @@ def prove(
                 raise Rejected("the common point is not the same point on both bodies")
             return True
         case "penetrating", PointProof():
-            _common_point_inside(proof, pair)
+            # The point is in the interior of one body and in the other, closed body. The other has
+            # an interior, so points nearby lie inside both.
+            a, b = pair.points(proof.both)
+            inner = (isinstance(x, Curved) and x.side(a) > 0 for x in (pair.a, pair.b))
+            if a != b or not any(inner):
+                raise Rejected("the point does not lie inside both")
             _neither_holds(proof, pair)
         case "penetrating", PolytopeProof():
             if not (isinstance(pair, Pair) and pair.convex):
@@ -99,15 +105,6 @@ def prove_free(proof: Proof, pair: AnyPair) -> None:
         _no_overlap(pair, meeting(pair.a, pair.b))
     else:
         raise Rejected("a certificate of this kind proves no way out")
-
-
-def _common_point_inside(proof: PointProof, pair: AnyPair) -> None:
-    """A point in the interior of one body and in the other, closed body. The other has an interior,
-    so points nearby lie inside both."""
-    a, b = pair.points(proof.both)
-    inner = (isinstance(x, Curved) and x.side(a) > 0 for x in (pair.a, pair.b))
-    if a != b or not any(inner):
-        raise Rejected("the point does not lie inside both")
 
 
 def _neither_holds(proof: PointProof | PolytopeProof, pair: AnyPair) -> None:
@@ -163,6 +160,32 @@ def _prove_by_surfaces(
             raise Rejected(f"surfaces prove no relation {relation!r}")
 
 
+def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
+    """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
+    may be negative: then the bodies may overlap by less than that."""
+    least = Fraction(tolerance)
+    if max(box_gaps(a, b)) > least:
+        return
+    if a.world is not None and b.world is not None:
+        pair = pair_of(a, b, a.world, b.world)
+        prove("separated", SurfacesProof(), pair, least, Fraction(0))
+        return
+    round_, other = (b, a) if b.world is None else (a, b)
+    centre, radius = round_.ball
+    if other.world is None:
+        along = sub(point(centre), point(other.ball[0]))
+        is_apart = any_pair_of(other, round_).gap(along, least) > 0
+    else:
+        mesh = Exact(other.world, other.world.lattice)
+        middle = mesh.at(centre)
+        reach = max(Fraction(radius) + least, Fraction(0))
+        is_apart = not comes_within(mesh, middle, reach, open_=False)
+        if is_apart and mesh.world.solid and mesh.winding(middle) != 0:
+            raise Rejected("a body that should be apart lies in another")
+    if not is_apart:
+        raise Rejected("bodies that should be apart are within the tolerance")
+
+
 def check_within(pair: Pair) -> None:
     """Rejects bodies of which a point of A lies outside of B, which is solid."""
     _nowhere({A_ALONE}, pair, meeting(pair.a, pair.b))
@@ -196,15 +219,12 @@ def _ways(
         theirs = {way[::turn][1] for way in ways}
         triangles = [only[::turn][0]] if only else chosen(x, y, pairs, theirs.__contains__)
         for sides in sides_of(triangles, x, y, pairs):
-            yield {way[::turn] for way in _ways_beside(sides, x.world.solid)}
-
-
-def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
-    ways = {sides.front, sides.back} if solid else set()
-    if solid and (sides.front[0] or sides.back[0]):
-        return ways
-    # A sheet within the boundary of a solid is neither inside nor outside of it.
-    return ways | {(True, inside) for inside in (sides.front[1],) if inside == sides.back[1]}
+            beside = {sides.front, sides.back} if x.world.solid else set()
+            is_sheet = not any(in_x for in_x, _ in beside)
+            # A sheet within the boundary of a solid is neither inside nor outside of it.
+            if is_sheet and sides.front[1] == sides.back[1]:
+                beside.add((True, sides.front[1]))
+            yield {way[::turn] for way in beside}
 
 
 def _holds(outer: Exact, alone: Way, pair: Pair) -> None:

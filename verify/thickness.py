@@ -120,31 +120,24 @@ class _Sums:
                 if weight:
                     used.setdefault(n, []).append((number, weight / largest))
         for n, places in used.items():
-            self._is_clear(n, [bounded[number][0] for number, _ in places], most)
+            side = self.patches[n]
+            if isinstance(side, Piece) or side.supports:
+                continue
+            # Something of the body is in front of the plane. Where that is looked at within reach
+            # only, the sum bounds depths up to that: it has to be more than `most`.
+            reach = side.reach
+            if reach is None or Fraction(reach) - self.granted[n] <= most:
+                raise Rejected("a body reaches beyond a plane that should bound it")
+            if not all(side.is_clear(bounded[number][0], reach) for number, _ in places):
+                raise Rejected("a body reaches beyond a plane next to what it should bound")
         limit = most * self.frame.scale
         for number in self._open(bounded, used, most) if bounded else ():
             cell, terms = bounded[number]
-            corners = map(cartesian, cell.corners(self.frame))
-            if any(self._exceeds(p, terms, limit) for p in corners):
-                raise Rejected("a cell is not shown to be as thin as that")
-
-    def _is_clear(self, n: int, cells: list[Cell], most: Fraction) -> None:
-        """Rejects a plane with something of its body in front of it. Where that is looked at within
-        reach only, the sum bounds depths up to that: it has to be more than `most`."""
-        side = self.patches[n]
-        if isinstance(side, Piece) or side.supports:
-            return
-        reach = side.reach
-        if reach is None or Fraction(reach) - self.granted[n] <= most:
-            raise Rejected("a body reaches beyond a plane that should bound it")
-        if not all(side.is_clear(cell, reach) for cell in cells):
-            raise Rejected("a body reaches beyond a plane next to what it should bound")
-
-    def _exceeds(self, p: Point, terms: Weighted, limit: Fraction) -> bool:
-        shares = [(patch, Fraction(weight)) for patch, weight in terms if weight]
-        less = [granted * self.frame.scale for granted in self.granted]
-        bounds = (w * (self.patches[n].distance(p) - less[n]) for n, w in shares)
-        return sum(bounds) > limit * sum(w for _, w in shares)
+            shares = [(n, Fraction(weight)) for n, weight in terms if weight]
+            least = sum(w * (limit + self.granted[n] * self.frame.scale) for n, w in shares)
+            for p in map(cartesian, cell.corners(self.frame)):
+                if sum(w * self.patches[n].distance(p) for n, w in shares) > least:
+                    raise Rejected("a cell is not shown to be as thin as that")
 
     def _open(
         self,

@@ -107,36 +107,25 @@ def placed(
     handedness = sign(dot(x, cross(y, z)))
     if handedness == 0 or tuple(pose[12:]) != (0.0, 0.0, 0.0, 1.0):
         raise Rejected("the pose is singular or not affine")
+    total = np.tile([float(pose[4 * k + 3]) for k in range(3)], (len(vertices), 1))
+    correction = np.zeros_like(total)
     # An overflow gives an infinite coordinate, which World refuses.
     with np.errstate(over="ignore", invalid="ignore"):
-        columns = [_sums(row, pose[4 * k + 3], vertices) for k, row in enumerate(rows)]
-    turned = triangles if handedness > 0 else triangles[:, [0, 2, 1]]
-    return World(np.column_stack(columns) + 0.0, turned, solid)
+        for a, b in zip(np.array(rows).T, vertices.T[..., None], strict=True):
+            product, (a_high, a_low), (b_high, b_low) = a * b, _halved(a), _halved(b)
+            error = a_low * b_low - (product - a_high * b_high - a_low * b_high - a_high * b_low)
+            before, total = total, total + product
+            back = total - before
+            rest = (before - (total - back)) + (product - back)
+            correction = correction + (rest + error)
+        moved = total + correction + 0.0
+    return World(moved, triangles if handedness > 0 else triangles[:, [0, 2, 1]], solid)
 
 
-def _sums(row: Sequence[float], offset: float, vertices: Floats) -> Floats:
-    total = np.full(len(vertices), float(offset))
-    correction = np.zeros(len(vertices))
-    for axis in range(3):
-        product, error = two_product(row[axis], vertices[:, axis])
-        total, rest = two_sum(total, product)
-        correction = correction + (rest + error)
-    return total + correction
-
-
-def two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    total = a + b
-    back = total - a
-    return total, (a - (total - back)) + (b - back)
-
-
-def two_product(a: float, b: Floats) -> tuple[Floats, Floats]:
-    product = a * b
-    c, d = SPLITTER * a, SPLITTER * b
-    a_high, b_high = c - (c - a), d - (d - b)
-    a_low, b_low = a - a_high, b - b_high
-    error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
-    return product, error
+def _halved(a: Floats) -> tuple[Floats, Floats]:
+    """Two numbers of half as many bits, whose sum a number is."""
+    high = SPLITTER * a - (SPLITTER * a - a)
+    return high, a - high
 
 
 def connected(triangles: Indices, count: int) -> Indices:
@@ -164,14 +153,9 @@ def is_flat(points: Floats) -> bool:
 
 def welded(vertices: Floats, triangles: Indices) -> tuple[Floats, Indices]:
     """The points that triangles have, each once, and the triangles by them."""
-    used = vertices[triangles.ravel()] + 0.0
-    order = np.lexsort(used.T)
-    in_order = used[order]
-    is_first = np.ones(len(order), dtype=bool)
-    is_first[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
-    number = np.empty(len(order), dtype=np.int64)
-    number[order] = np.cumsum(is_first) - 1
-    return in_order[is_first], number.reshape(-1, 3)
+    used = vertices[triangles.ravel()] + 0.0  # -0.0 is 0.0
+    points, number = np.unique(used, axis=0, return_inverse=True)
+    return points, number.reshape(-1, 3)
 
 
 def rounded(vector: Sequence[Any]) -> Floats:

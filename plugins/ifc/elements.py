@@ -7,7 +7,7 @@ ports, structural analysis and terrain are not.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
@@ -173,7 +173,11 @@ def _memberships(body: Any) -> tuple[str, ...]:
 
 def curved_bodies(model: Any, bodies: Sequence[Any]) -> set[int]:
     """The numbers of bodies that have a curved surface, or may have one from an opening."""
-    curved, facets = (_classes_in(model, names) for names in (_CURVED, _FACETS))
+    # Classes of instances of the file that make curved surfaces, and of those that are facets.
+    curved, facets = (
+        {each.is_a() for name in names for each in instances_of(model, name)}
+        for names in (_CURVED, _FACETS)
+    )
     known: dict[int, bool] = {}
 
     def is_curved(representation: Any) -> bool:
@@ -189,13 +193,12 @@ def curved_bodies(model: Any, bodies: Sequence[Any]) -> set[int]:
             return False
         return any(_is_curved(each, curved) for each in model.traverse(item))
 
-    return {body.id() for body in bodies if any(map(is_curved, _representations(body)))}
-
-
-def _representations(body: Any) -> Iterator[Any]:
-    yield from material_of(body)
-    for relation in getattr(body, "HasOpenings", ()):
-        yield from material_of(relation.RelatedOpeningElement)
+    numbers = set()
+    for body in bodies:
+        cut = (relation.RelatedOpeningElement for relation in getattr(body, "HasOpenings", ()))
+        if any(is_curved(shown) for each in (body, *cut) for shown in material_of(each)):
+            numbers.add(body.id())
+    return numbers
 
 
 def _is_curved(instance: Any, curved: Collection[str]) -> bool:
@@ -209,8 +212,3 @@ def _is_curved(instance: Any, curved: Collection[str]) -> bool:
     values = instance.get_info().items() if kind.endswith("ProfileDef") else ()
     radii = (value for name, value in values if name.endswith("Radius"))
     return any(isinstance(radius, float) and radius for radius in radii)
-
-
-def _classes_in(model: Any, names: Iterable[str]) -> frozenset[str]:
-    """The classes of the instances of the file that are of one of these."""
-    return frozenset(each.is_a() for name in names for each in instances_of(model, name))

@@ -30,7 +30,7 @@ _MOST_THREADS = 4
 _DEFAULT_PRECISION = 1e-5  # metres, of contexts that state none
 # The beginnings of types of representations without a surface.
 _CURVES = ("Annotation", "Curve", "GeometricCurveSet", "GeometricSet", "Point")
-_Made = tuple[bytes, bytes, Sequence[float]]  # vertices, triangles, matrix
+_Made = tuple[bytes, bytes, Sequence[float]]  # vertices, triangles, matrix column by column
 # Messages about faces that are left out. The mesh then has a hole, which the check of its surface
 # finds: the body stays.
 _LOST_FACES = frozenset(("GEO159", "GEO162", "GEO184", "GEO198"))
@@ -87,12 +87,6 @@ def _elements(model: Any, bodies: Sequence[Any], options: Mapping[str, Any]) -> 
         more = shapes.next()
 
 
-def _matrix(columns: Sequence[float]) -> Transform | None:
-    """From the 16 numbers of the kernel, column by column."""
-    rows = tuple(columns[4 * column + row] for row in range(4) for column in range(4))
-    return None if rows == IDENTITY else rows
-
-
 def _whole(
     body: Any, made: Sequence[_Made], failures: Failures, decimals: int, tolerance: float
 ) -> Shape | Refusal:
@@ -120,7 +114,9 @@ def _whole(
         warnings=warnings,
         surface_tolerance=tolerance,
     )
-    return Shape(mesh, _matrix(made[0][2]))
+    columns = made[0][2]
+    rows = tuple(columns[4 * column + row] for row in range(4) for column in range(4))
+    return Shape(mesh, None if rows == IDENTITY else rows)
 
 
 def _decimals(model: Any) -> int:
@@ -147,19 +143,15 @@ def failures_in(model: Any, messages: Iterable[Message], bodies: Collection[int]
     fatal: dict[int, Message] = {}
     faces: dict[int, int] = {}
     for message in messages:
-        is_error = message.level == "error"
-        if message.code in _LOST_FACES or (is_error and _is_of_face(model, message)):
+        is_error, about = message.level == "error", message.instance_number
+        of_face = about is not None and any(map(model.by_id(about).is_a, _OF_FACES))
+        if message.code in _LOST_FACES or (is_error and of_face):
             for number in _concerned(model, message, bodies):
                 faces[number] = faces.get(number, 0) + 1
         elif is_error:
             for number in _concerned(model, message, bodies):
                 fatal.setdefault(number, message)
     return Failures(fatal, faces)
-
-
-def _is_of_face(model: Any, message: Message) -> bool:
-    number = message.instance_number
-    return number is not None and any(map(model.by_id(number).is_a, _OF_FACES))
 
 
 def _concerned(model: Any, message: Message, bodies: Collection[int]) -> Collection[int]:

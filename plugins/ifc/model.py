@@ -69,7 +69,9 @@ def open_model(data: memoryview, most: Most) -> Any:
         raise Refused("bad-record", f"the file cannot be parsed: {said}") from None
     _refuse_damage(model, logged())
     refuse_other_kinds(model)
-    _refuse_without_unit(model)
+    units = (unit for each in model.by_type("IfcUnitAssignment") for unit in each.Units)
+    if not any(getattr(unit, "UnitType", None) == "LENGTHUNIT" for unit in units):
+        raise Refused("bad-record", "the file states no unit of length (LENGTHUNIT)")
     _refuse_cycles(model)
     if not model.by_type("IfcGeometricRepresentationContext"):
         message = "the file has no IfcGeometricRepresentationContext, so its shapes have no meaning"
@@ -135,12 +137,6 @@ def _is_a(value: Any, name: str) -> bool:
     return value is None or (hasattr(value, "is_a") and value.is_a(name))
 
 
-def _refuse_without_unit(model: Any) -> None:
-    units = (unit for each in model.by_type("IfcUnitAssignment") for unit in each.Units)
-    if not any(getattr(unit, "UnitType", None) == "LENGTHUNIT" for unit in units):
-        raise Refused("bad-record", "the file states no unit of length (LENGTHUNIT)")
-
-
 def _refuse_cycles(model: Any) -> None:
     """The kernel ends its process over a placement that is relative to itself."""
     above = {
@@ -187,10 +183,8 @@ def refuse_other_kinds(model: Any) -> None:
                 known[kind] = tuple(_attributes(model, kind))
             for each in known[kind]:
                 if not each.fits(instance[each.number]):
-                    message = (
-                        f"{kind} #{instance.id()}: {each.name} is not what the schema prescribes"
-                    )
-                    raise Refused("bad-record", message)
+                    what = f"{kind} #{instance.id()}: {each.name}"
+                    raise Refused("bad-record", f"{what} is not what the schema prescribes")
 
 
 def _attributes(model: Any, kind: str) -> Iterator[_Attribute]:

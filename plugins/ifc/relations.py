@@ -53,7 +53,10 @@ def relations_of(
     its number."""
     groups: dict[int, list[str]] = {}
     rules = [*_reinforcement(bodies, groups), *_assemblies(model, paths, groups)]
-    rules += _wholes(bodies, paths)
+    for whole in bodies:  # those that have a shape of their own, with their parts
+        reason = f"part of {_called(whole)} (IfcRelAggregates)"
+        parts = [part for part in _bodies_of(whole, paths) if part != whole.id()]
+        rules += [RawRule(paths[whole.id()], paths[part], reason) for part in parts]
     for pair in _pairs(model):
         for a, b in product(_bodies_of(pair.a, paths), _bodies_of(pair.b, paths)):
             if a != b and not (pair.is_corner and not meet_in_a_corner(shapes[a], shapes[b])):
@@ -90,17 +93,14 @@ def _assemblies(
             yield RawRule(name, name, reason, of_groups=True, severity=_NOTE)
 
 
-def _wholes(bodies: Sequence[Any], paths: Mapping[int, str]) -> Iterator[RawRule]:
-    """Wholes that have a shape of their own, with their parts."""
-    for whole in bodies:
-        for part in _bodies_of(whole, paths):
-            if part != whole.id():
-                reason = f"part of {_called(whole)} (IfcRelAggregates)"
-                yield RawRule(paths[whole.id()], paths[part], reason)
-
-
 def _pairs(model: Any) -> Iterator[_Pair]:
-    yield from _fillings(model)
+    from ifcopenshell.util.system import get_port_element
+
+    for relation in instances_of(model, "IfcRelFillsElement"):
+        for voids in relation.RelatingOpeningElement.VoidsElements:
+            host = voids.RelatingBuildingElement
+            reason = f"it fills an opening of {_called(host)} (IfcRelFillsElement)"
+            yield _Pair(host, relation.RelatedBuildingElement, reason)
     for relation in instances_of(model, "IfcRelProjectsElement"):
         host, addition = relation.RelatingElement, relation.RelatedFeatureElement
         yield _Pair(host, addition, "a projection of its host (IfcRelProjectsElement)", None)
@@ -115,23 +115,6 @@ def _pairs(model: Any) -> Iterator[_Pair]:
         host = relation.RelatingBuildingElement
         for covering in relation.RelatedCoverings:
             yield _Pair(host, covering, "its covering (IfcRelCoversBldgElements)")
-    yield from _ports(model)
-
-
-def _fillings(model: Any) -> Iterator[_Pair]:
-    """Doors and windows in openings, with the hosts of the openings."""
-    for relation in instances_of(model, "IfcRelFillsElement"):
-        opening = relation.RelatingOpeningElement
-        for voids in opening.VoidsElements:
-            host = voids.RelatingBuildingElement
-            reason = f"it fills an opening of {_called(host)} (IfcRelFillsElement)"
-            yield _Pair(host, relation.RelatedBuildingElement, reason)
-
-
-def _ports(model: Any) -> Iterator[_Pair]:
-    """Pipes, ducts and fittings whose ports are connected."""
-    from ifcopenshell.util.system import get_port_element
-
     for relation in instances_of(model, "IfcRelConnectsPorts"):
         a, b = map(get_port_element, (relation.RelatingPort, relation.RelatedPort))
         if a is not None and b is not None:

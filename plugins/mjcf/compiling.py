@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,6 +15,8 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
+from satcheck.core.shape_mesh import mesh_of
+from satcheck.core.shapes import Box
 from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.plugins.mjcf.files import ModelFiles
 from satcheck.scene.document import COMPONENT_MARK, Document, RawMesh, Refusal
@@ -30,10 +31,8 @@ from satcheck.scene.robot.packages import FilePlaces
 mujoco.set_mju_user_warning(lambda _: None)
 _GEOM = mujoco.mjtGeom
 _READ_BY_SATCHECK = (".obj", ".stl")
-# A box whose centre and axes of inertia are those of its coordinates: MuJoCo does not move it.
-_CORNERS = [c for x in (-1, 1) for y in (-2, 2) for z in (-4, 4) for c in (x, y, z)]
-_FACES = [0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1]
-_FACES += [2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3]
+# The centre and the axes of inertia are those of its coordinates: MuJoCo does not move it.
+_BOX = mesh_of(Box((2.0, 4.0, 8.0)))
 _NOT_READ = {
     _GEOM.mjGEOM_HFIELD: "a height field (hfield) is not read",
     _GEOM.mjGEOM_SDF: "a signed distance field of a plugin (sdf) is not read",
@@ -105,11 +104,6 @@ def _compiled(path: str, places: FilePlaces, models: list[str]) -> Compiled:
     )
 
 
-def _delete(spec: Any, elements: Iterable[Any]) -> None:
-    for element in list(elements):
-        spec.delete(element)
-
-
 def _relax(spec: Any) -> None:
     """Nothing is merged or left out, and nothing that places no geometry is refused: masses, sizes
     of memory, lengths of muscles, keyframes."""
@@ -123,7 +117,8 @@ def _relax(spec: Any) -> None:
     for key in spec.keys:
         for values in ("qpos", "qvel", "act", "ctrl", "mpos", "mquat"):
             setattr(key, values, [])
-    _delete(spec, spec.skins)
+    for skin in list(spec.skins):
+        spec.delete(skin)
 
 
 def _empty_textures(spec: Any) -> None:
@@ -147,7 +142,8 @@ def _replace_geoms(spec: Any) -> dict[int, Refusal]:
             refusals[number] = Refusal("unsupported-feature", _NOT_READ[geom.type])
             geom.type, geom.size = _GEOM.mjGEOM_SPHERE, (1, 1, 1)
             geom.meshname = geom.hfieldname = ""
-    _delete(spec, spec.hfields)
+    for field in list(spec.hfields):
+        spec.delete(field)
     return refusals
 
 
@@ -173,7 +169,9 @@ def _replace_meshes(
         if isinstance(place, Refusal):
             refused[mesh.name] = place
         mesh.file, mesh.content_type = "", ""
-        mesh.uservert, mesh.userface = np.array(_CORNERS, float), np.array(_FACES)
+        mesh.uservert, mesh.userface = (
+            np.ravel(each) for each in (_BOX.vertices, np.asarray(_BOX.triangles, np.int32))
+        )
         mesh.scale, mesh.refpos, mesh.refquat = (1, 1, 1), (0, 0, 0), (1, 0, 0, 0)
     return files, refused
 

@@ -5,6 +5,7 @@ MuJoCo looks for an included file in the folder of the model, then in that of th
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
 
 from satcheck.scene.errors import Refused
@@ -30,9 +31,13 @@ class ModelFiles:
         self._flexes: list[tuple[Element, str, str]] = []
         self.models: list[str] = []
         self._model(path)
-        for element, file, model in self._flexes:
-            for folder in dict.fromkeys(self._folders):
-                self._permit(element, str(Path(folder, file)), model)
+        for (element, file, model), folder in product(self._flexes, dict.fromkeys(self._folders)):
+            name = str(Path(folder, file))
+            try:
+                places.of(model).locate_small(name)
+            except Refused as error:  # MuJoCo reports one that is missing
+                if error.code in ("outside-path", "too-large"):
+                    element.refuse(f"{name!r}: {error.message}", error.code)
 
     def _model(self, path: str) -> None:
         if path not in self.models:
@@ -61,14 +66,6 @@ class ModelFiles:
                     self._model(place)
             elif tag == "flexcomp":
                 self._flexes.append((element, file, model))
-
-    def _permit(self, element: Element, file: str, model: str) -> None:
-        """Refuses a file that may not be opened. MuJoCo reports one that is missing."""
-        try:
-            self._places.of(model).locate_small(file)
-        except Refused as error:
-            if error.code in ("outside-path", "too-large"):
-                element.refuse(f"{file!r}: {error.message}", error.code)
 
     def _place(self, element: Element, file: str, model: str) -> str:
         first: Refused | None = None

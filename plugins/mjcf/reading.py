@@ -79,7 +79,11 @@ class Reading:
         m = self._model
         places = [pose_of(m.body_pos[k], m.body_quat[k]) for k in range(m.nbody)]
         joints, between = joints_of(m, self._bodies, self._joints, places)
-        flexes = list(self._flex_links())
+        groups = {name: self._exemptions.groups(None, mask) for name, mask in self._flexes}
+        flexes = [
+            Link(f"flex {name}", (Collision(None, IDENTITY, _FLEX, 0, groups=of),), unused=False)
+            for name, of in groups.items()
+        ]
         links = [*self._links(rest_poses(m, places)), *between, *flexes]
         states = tuple(
             State("", key.name, dict(values_of(key, m, self._joints)), self._path, {})
@@ -111,12 +115,6 @@ class Reading:
                 static=bool(m.body_treeid[number] < 0),
                 rest=rest[number],
             )
-
-    def _flex_links(self) -> Iterator[Link]:
-        for name, mask in self._flexes:
-            groups = self._exemptions.groups(None, mask)
-            lost = Collision(None, IDENTITY, _FLEX, 0, groups=groups)
-            yield Link(f"flex {name}", (lost,), unused=False)
 
     def _collision(self, k: int) -> Collision:
         m = self._model
@@ -161,7 +159,9 @@ class Reading:
     def _notes(self) -> Iterator[tuple[str, str]]:
         shapes = map(self._shape, self._checked)
         if self._geometry == "collision" and any(isinstance(s, MeshReference) for s in shapes):
-            yield "mesh-or-hull", self._which_is_checked()
+            taken = "the convex hulls of meshes are checked, as in MuJoCo, not their triangles"
+            own = "the triangles of meshes are checked; MuJoCo uses their convex hulls"
+            yield "mesh-or-hull", taken if self._hulls else f"{own} (--read mesh-hulls=true)"
         unsolved = "not solved: joints stand where the pose says"
         if count := self._read.constraints:
             what = "constraint is" if count == 1 else "constraints are"
@@ -172,12 +172,6 @@ class Reading:
         for reason in dict.fromkeys(filter(None, reasons.values())):
             names = ", ".join(name for name, each in reasons.items() if each == reason)
             yield "keyframe-not-read", f"keyframes are no states, because {reason}: {names}"
-
-    def _which_is_checked(self) -> str:
-        if self._hulls:
-            return "the convex hulls of meshes are checked, as in MuJoCo, not their triangles"
-        triangles = "the triangles of meshes are checked; MuJoCo uses their convex hulls"
-        return f"{triangles} (--read mesh-hulls=true)"
 
     def _has_spring(self) -> bool:
         """Whether a spring of a joint or tendon pulls bodies out of qpos0."""

@@ -95,9 +95,13 @@ class Frames:
             return WORLD
         if known is not None:
             return path
-        if of_joint and (model := self._opaque_around(path)):
-            return model
-        hint = meant(text, self._names_in(scope))
+        parts = path.split(_SEPARATOR) if of_joint else []
+        for length in range(1, len(parts)):
+            if (model := _SEPARATOR.join(parts[:length])) in self.opaque:
+                return model
+        start = scope.path("")
+        known_here = (name.removeprefix(start) for name in self._frames if name.startswith(start))
+        hint = meant(text, list(known_here))
         message = f"names {text!r}, which does not exist{hint}"
         return element.refuse(message, "index-out-of-range")
 
@@ -107,15 +111,6 @@ class Frames:
         except RefusedElement:
             return False
         return True
-
-    def _opaque_around(self, path: str) -> str | None:
-        parts = path.split(_SEPARATOR)
-        outer = (_SEPARATOR.join(parts[:length]) for length in range(1, len(parts)))
-        return next((model for model in outer if model in self.opaque), None)
-
-    def _names_in(self, scope: Scope) -> list[str]:
-        start = scope.path("")
-        return [path.removeprefix(start) for path in self._frames if path.startswith(start)]
 
     def attached_to(self, path: str) -> str:
         """What the frame moves with."""

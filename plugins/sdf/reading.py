@@ -51,7 +51,12 @@ def read_sdf(file: File) -> RobotDocument:
     poses = {WORLD: IDENTITY} | {path: contents.frames.world(path) for path in contents.links}
     elements = {joint.path: joint.element for joint in contents.joints}
     joints = [made for joint in contents.joints if (made := _joint(joint, contents, slips))]
-    parts = {path: _parts(path, contents) for path in contents.links}
+    parts = {
+        path: parts_in(link.element, path, link.scope, contents.frames, slips)
+        if link.refusal is None
+        else [Part(link.refusal, ANY)]
+        for path, link in contents.links.items()
+    }
     collisions, exempted = _exempt(contents.links, parts)
     links = {
         path: Link(
@@ -68,7 +73,10 @@ def read_sdf(file: File) -> RobotDocument:
     def note(joint: Joint, cause: str) -> None:
         slips.note("joint-not-moved", elements[joint.name], cause)
 
-    roots, ordered = trees_of(_starts(contents), still, poses, joints, note)
+    # The world, the canonical link of each outermost model, then all links.
+    models = dict.fromkeys(link.model for link in contents.links.values())
+    starts = (WORLD, *map(contents.body, models), *contents.links)
+    roots, ordered = trees_of(starts, still, poses, joints, note)
     check_mimics([(joint, elements[joint.name]) for joint in ordered])
     robot = Robot(
         name=_name(root),
@@ -79,13 +87,6 @@ def read_sdf(file: File) -> RobotDocument:
         exempt=(*exempted, *_joined(joints, contents)),
     )
     return RobotDocument(robot=robot, issues=slips.issues())
-
-
-def _parts(path: str, contents: Contents) -> list[Part]:
-    link = contents.links[path]
-    if link.refusal is not None:
-        return [Part(link.refusal, ANY)]
-    return parts_in(link.element, path, link.scope, contents.frames, contents.slips)
 
 
 def _joint(joint: JointEntry, contents: Contents, slips: Slips) -> Joint | None:
@@ -130,14 +131,6 @@ def _joined(joints: Iterable[Joint], contents: Contents) -> Iterator[RawRule]:
     for joint in joints:
         if unchecked.isdisjoint((joint.parent, joint.child)):
             yield RawRule(joint.parent, joint.child, f"SDF: joint {joint.name}")
-
-
-def _starts(contents: Contents) -> Iterator[str]:
-    """The world, the canonical link of each outermost model, then all links."""
-    yield WORLD
-    for model in dict.fromkeys(link.model for link in contents.links.values()):
-        yield contents.body(model)
-    yield from contents.links
 
 
 def _name(root: Element) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 from msgspec import Struct, field
@@ -111,7 +111,13 @@ class _Assembly(GltfScene):
             if not self._is_curves(node.key)
         ]
         if all(part.key.mesh is None for part in placed):
-            self._refuse_empty([part.key.name for part in placed], curves)
+            names = [part.key.name for part in placed]
+            if names and self._exchange.documents:
+                refusal = self._missing(names[0])
+                raise Refused(refusal.code, refusal.message)
+            what = "curves alone" if curves else f"products without a shape: {listed(names)}"
+            message = "; ".join((f"empty mesh: the file has {what}", *self._exchange.unread))
+            raise Refused("empty-mesh", message)
         scene = raw_scene(placed, lambda part: part.name, self._mesh_of)
         lost = self._lost_faces(part.key for part in placed)
         return replace(scene, warnings=tuple(self._warnings(scene, curves, lost)))
@@ -163,15 +169,6 @@ class _Assembly(GltfScene):
             units="mm",
             surface_tolerance=0.0 if flat else self._options["chord_tolerance"],
         )
-
-    def _refuse_empty(self, names: list[str], curves: list[str]) -> NoReturn:
-        """Refuses a file without any surface."""
-        if names and self._exchange.documents:
-            refusal = self._missing(names[0])
-            raise Refused(refusal.code, refusal.message)
-        what = "curves alone" if curves else f"products without a shape: {listed(names)}"
-        message = "; ".join((f"empty mesh: the file has {what}", *self._exchange.unread))
-        raise Refused("empty-mesh", message)
 
     def _missing(self, name: str) -> Refusal:
         documents = self._exchange.documents

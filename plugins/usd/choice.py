@@ -13,7 +13,6 @@ from satcheck.plugins.usd.walk import PlacedPrim, type_of
 from satcheck.scene.document import Refusal
 
 _WITH_WIDTHS = frozenset(("BasisCurves", "NurbsCurves", "HermiteCurves", "Points"))
-_OF_GEOMETRY = ("extent", "points")
 _OF_MESHES = ("points", "faceVertexCounts", "faceVertexIndices")
 _OF_SHAPES = (*_OF_MESHES, "size", "radius", "height")
 _OF_SKELETONS = (UsdSkel.Root, UsdSkel.Skeleton)
@@ -38,7 +37,8 @@ class Choice:
         if self.colliders:
             known = not lost and not self.collides(placed.prim)
             return "no enabled collider" if known else None
-        if self._is_hidden(placed):
+        around = placed.frame.around(placed.prim)
+        if any(self._hidden_below(prim, frame.root) for prim, frame in around):
             return "invisible"
         purpose = _purpose(placed)
         return (
@@ -50,10 +50,6 @@ class Choice:
         if not self.colliders or not prim.HasAPI(UsdPhysics.CollisionAPI):
             return False
         return bool(UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr().Get(self.time))
-
-    def _is_hidden(self, placed: PlacedPrim) -> bool:
-        around = placed.frame.around(placed.prim)
-        return any(self._hidden_below(prim, frame.root) for prim, frame in around)
 
     def _hidden_below(self, prim: Any, root: Any) -> bool:
         """Whether the prim or one above it, up to the root, is invisible."""
@@ -100,12 +96,15 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
     """
     kind = prim.GetTypeName()
     stated = [name for name in _OF_SHAPES if prim.HasAttribute(name)]
-    if not kind and not choice.colliders and any(_is_shape(prim, name) for name in stated):
+    placed = prim.HasAttribute("xformOpOrder")
+    of_shape = (placed and not prim.GetAttribute(name).IsCustom() for name in stated)
+    is_shape = any(of_shape) or not set(stated).isdisjoint(_OF_MESHES)
+    if is_shape and not kind and not choice.colliders:
         message = f"a prim of no type has {', '.join(stated)}: it may be meant to be a shape"
         return Refusal("unsupported-feature", message)
     if _is_made_elsewhere(prim) and not choice.colliders:
         return Refusal("unsupported-feature", f"geometry of the type {kind} is not read")
-    has_points = any(map(prim.HasProperty, _OF_GEOMETRY))
+    has_points = any(map(prim.HasProperty, ("extent", "points")))
     is_unknown = kind and not type_of(prim) and (has_points or not TYPES.knows(kind))
     is_drawn = not choice.colliders and any(map(prim.HasProperty, _OF_SPACE))
     if is_unknown and (choice.collides(prim) or is_drawn):
@@ -115,13 +114,6 @@ def hidden_geometry(prim: Any, choice: Choice) -> Refusal | None:
         message = f"a collider of type {kind or 'unknown'} that joins what is below is not read"
         return Refusal("unsupported-feature", message)
     return None
-
-
-def _is_shape(prim: Any, name: str) -> bool:
-    """Whether the property makes a prim of no type look like a mesh, or like a shape in a place."""
-    if name in _OF_MESHES:
-        return True
-    return bool(prim.HasAttribute("xformOpOrder") and not prim.GetAttribute(name).IsCustom())
 
 
 def _is_made_elsewhere(prim: Any) -> bool:

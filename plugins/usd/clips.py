@@ -49,7 +49,9 @@ def _why_not(prim: Any, api: Any, name: str, clips: Any) -> str | None:
     paths = api.ComputeClipAssetPaths(name)
     if not paths:
         return f"there is no file {clips.get('templateAssetPath', '')} at its times"
-    path = _first(api.GetClipActive(name), paths)
+    numbers = [int(number) for _, number in sorted(map(tuple, api.GetClipActive(name) or ()))]
+    first = numbers[0] if numbers and 0 <= numbers[0] < len(paths) else 0
+    path = paths[first]  # the clip of the first times
     if not path.resolvedPath:
         return None  # the body is lost
     layer, root = Sdf.Layer.FindOrOpen(path.resolvedPath), str(clips["primPath"])
@@ -67,21 +69,11 @@ def _why_not(prim: Any, api: Any, name: str, clips: Any) -> str | None:
     return None
 
 
-def _first(active: Any, paths: Any) -> Any:
-    """The clip of the first times."""
-    numbers = [int(number) for _, number in sorted(map(tuple, active or ()))]
-    return paths[numbers[0]] if numbers and 0 <= numbers[0] < len(paths) else paths[0]
-
-
 def _given(prim: Any, layer: Any, root: Any) -> Iterator[Any]:
     """Where the attributes belong that the layer has values for."""
-    found = []
-
-    def look(path: Any) -> None:
+    paths: list[Any] = []
+    layer.Traverse(root, paths.append)
+    for path in paths:
         shapes = path.name in names.SHAPING or path.name.startswith(names.OP)
         if path.IsPropertyPath() and shapes and layer.GetNumTimeSamplesForPath(path):
-            found.append(path)
-
-    layer.Traverse(root, look)
-    for path in found:
-        yield path.ReplacePrefix(root, prim.GetPath())
+            yield path.ReplacePrefix(root, prim.GetPath())

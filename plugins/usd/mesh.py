@@ -37,7 +37,7 @@ def read_mesh(prim: Any, time: Any, unit: str) -> RawMesh:
         corners, lengths, _ints(mesh.GetHoleIndicesAttr(), time)
     )
     triangles = triangles_of(points, corners, lengths)
-    return _raw(points, _outward(mesh, triangles, time), unit, warnings)
+    return _raw(mesh, time, points, triangles, unit, warnings)
 
 
 def read_tetrahedra(prim: Any, time: Any, unit: str) -> RawMesh:
@@ -53,7 +53,7 @@ def read_tetrahedra(prim: Any, time: Any, unit: str) -> RawMesh:
         raise Refused(NO_SURFACE, "the mesh has no tetrahedra")
     triangles = np.asarray(faces, np.int64).reshape(-1, 3)
     _refuse_indices(triangles.ravel(), len(points))
-    return _raw(points, _outward(mesh, triangles, time), unit, ())
+    return _raw(mesh, time, points, triangles, unit)
 
 
 def _points(mesh: Any, time: Any) -> Points:
@@ -102,20 +102,18 @@ def _solid_faces(
     return corners, lengths, tuple(warnings)
 
 
-def _outward(mesh: Any, triangles: Ints, time: Any) -> Ints:
-    left = mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded
-    return triangles[:, ::-1] if left else triangles
-
-
 def _raw(
+    mesh: Any,
+    time: Any,
     points: Points,
     triangles: Ints,
     unit: str,
-    warnings: tuple[tuple[str, str], ...],
+    warnings: tuple[tuple[str, str], ...] = (),
 ) -> RawMesh:
+    left = mesh.GetOrientationAttr().Get(time) == UsdGeom.Tokens.leftHanded
     return RawMesh(
         vertices=points.astype("<f8").tobytes(),
-        triangles=triangles.astype("<u4").tobytes(),
+        triangles=(triangles[:, ::-1] if left else triangles).astype("<u4").tobytes(),
         number_format=points.dtype.name,  # type: ignore[arg-type]  # one of _FORMATS
         units=unit,
         warnings=warnings,
@@ -136,14 +134,13 @@ class Skinning:
         self._populated: set[Any] = set()
         self._places = UsdGeom.XformCache(time)
 
-    def is_bound(self, prim: Any) -> bool:
-        """Whether joints or blend shapes move the points of the mesh."""
+    def moved(self, prim: Any, mesh: RawMesh) -> RawMesh | None:
+        """The mesh with the points that the skeleton gives it; None: neither joints nor blend
+        shapes move it. Raises Refused."""
         query = self._query(prim)
-        return bool(query) and (query.HasJointInfluences() or query.HasBlendShapes())
-
-    def moved(self, prim: Any, mesh: RawMesh) -> RawMesh:
-        """The mesh with the points that the skeleton gives it. Raises Refused."""
-        query, skeleton = self._query(prim), UsdSkel.BindingAPI(prim).GetInheritedSkeleton()
+        if not query or not (query.HasJointInfluences() or query.HasBlendShapes()):
+            return None
+        skeleton = UsdSkel.BindingAPI(prim).GetInheritedSkeleton()
         joints = self._skeletons.GetSkelQuery(skeleton) if skeleton else None
         if not joints:
             return mesh

@@ -98,12 +98,12 @@ def opened(place: str) -> Any:
 def clips_of(layer: Any) -> Iterator[str]:
     """The files of the clips that a layer names, and the folders in which templates look for
     theirs, which end with `/`."""
+    paths: list[Any] = []
+    layer.Traverse("/", paths.append)
     found: list[str] = []
-
-    def look(path: Any) -> None:
-        spec = layer.GetObjectAtPath(path)
-        spec = spec.primSpec if isinstance(spec, Sdf.VariantSpec) else spec
-        sets = spec.GetInfo("clips") if isinstance(spec, Sdf.PrimSpec) else {}
+    for spec in map(layer.GetObjectAtPath, paths):
+        prim = spec.primSpec if isinstance(spec, Sdf.VariantSpec) else spec
+        sets = prim.GetInfo("clips") if isinstance(prim, Sdf.PrimSpec) else {}
         for clips in sets.values():
             if not isinstance(clips, dict):
                 continue
@@ -113,8 +113,6 @@ def clips_of(layer: Any) -> Iterator[str]:
                 elif isinstance(value, Sdf.AssetPathArray):
                     found.extend(each.path for each in value)
             found.append(str(clips.get("templateAssetPath", "")))
-
-    layer.Traverse("/", look)
     for place in (place_of(layer, name) for name in found if name):
         if "#" not in Path(place).name:
             yield place

@@ -73,13 +73,15 @@ class _Rules:
         self._below: dict[str, list[int]] = {}  # name of a prim -> the nodes below
         self._names: dict[str, dict[str, str]] = {}  # path of a prim -> frame -> name there
         self._around: dict[str, str] = {}  # frame -> the one around it
-        self._made: set[str] = set()
         self._filters: list[Any] = []
         self.joints: list[Any] = []
         self.of_body: dict[str, list[int]] = {}
         self.groups: list[list[str]] = [[] for _ in prims]
         has_bodies = False
-        for prim in chain(stage.Traverse(Usd.TraverseInstanceProxies()), *_undefined(prims)):
+        roots = {root.GetPath(): root for each in prims if (root := each.frame.root) is not None}
+        # A walk of the stage leaves out what is below an `over`.
+        undefined = (of_prototype(root) for root in roots.values() if not root.IsDefined())
+        for prim in chain(stage.Traverse(Usd.TraverseInstanceProxies()), *undefined):
             has_bodies = has_bodies or prim.HasAPI(UsdPhysics.RigidBodyAPI)
             if prim.HasAPI(UsdPhysics.FilteredPairsAPI):
                 self._filters.append(prim)
@@ -131,9 +133,8 @@ class _Rules:
         return None if frame is None else known[frame]
 
     def _group(self, name: str, numbers: Sequence[int]) -> str:
-        if name not in self._made:
-            self._made.add(name)
-            for number in numbers:
+        for number in numbers:
+            if name not in self.groups[number]:
                 self.groups[number].append(name)
         return name
 
@@ -188,12 +189,6 @@ def _is_body(prim: Any, time: Any) -> bool:
     return bool(UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr().Get(time))
 
 
-def _undefined(prims: Sequence[PlacedPrim]) -> Iterator[Any]:
-    """Ranges of the prims of prototypes below an `over`, which a walk of the stage leaves out."""
-    roots = {root.GetPath(): root for each in prims if (root := each.frame.root) is not None}
-    yield from (of_prototype(root) for root in roots.values() if not root.IsDefined())
-
-
 def _rule(a: str, b: str, reason: str) -> RawRule:
     return RawRule(a, b, f"USD: {reason}", of_groups=True)
 
@@ -224,7 +219,8 @@ class _Joints:
         is_on = joint.GetJointEnabledAttr().Get(self._time)
         if not is_on or parent == child or kind in _LOOSE:
             return None
-        if any(map(self._is_lost, ends)):
+        named = (path for end in ends for path in end.GetForwardedTargets()[:1])
+        if not all(map(self._stage.stage.GetPrimAtPath, named)):
             self._said.add("joint-not-moved", "a body that it names is missing: ignored", name)
             return None
         frames = [self._frame(joint, number, end) for number, end in enumerate(ends)]
@@ -263,10 +259,6 @@ class _Joints:
             limits=(low, high) if math.isfinite(low) and math.isfinite(high) else None,
             rest=rest if kind == "revolute" else rest * self._metres,
         )
-
-    def _is_lost(self, end: Any) -> bool:
-        targets = end.GetForwardedTargets()
-        return bool(targets) and not self._stage.stage.GetPrimAtPath(targets[0])
 
     def _frame(self, joint: Any, number: int, end: Any) -> Floats:
         """World pose of a frame of the joint, shape (4, 4), for column vectors, rigid. Mirrored

@@ -149,9 +149,9 @@ class Reading:
             self._said.add(
                 "control-cage", f"subdivision surface ({scheme}), checked as its control cage", name
             )
-        if self._skinning.is_bound(prim):
+        if (moved := self._skinning.moved(prim, mesh)) is not None:
             self._said.add("rest-shape", "skinned, it stands as its skeleton does", name)
-            mesh = self._skinning.moved(prim, mesh)
+            mesh = moved
         return self._simulated(prim, mesh) if self._choice.colliders else mesh
 
     def _simulated(self, prim: Any, mesh: RawMesh) -> RawMesh:

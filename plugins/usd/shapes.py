@@ -3,6 +3,7 @@ as triangles."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -41,10 +42,7 @@ def shape_of(
     endless: a plane is a half space. Raises Refused for sizes that make no shape, for two different
     radii, and for an axis other than X, Y and Z.
     """
-
-    def size(name: str) -> float:
-        return _number(prim, name, time)
-
+    size = partial(_number, prim, time)
     try:
         match type_of(prim):
             case "Sphere":
@@ -95,7 +93,7 @@ def _of_two_radii(prim: Any, size: Any) -> Primitive:
 
 def _quad(plane: Any, time: Any) -> tuple[bytes, bytes]:
     """The extents along the axes follow the schema of UsdGeomPlane."""
-    half = [_number(plane, name, time) / 2 for name in ("width", "length")]
+    half = [_number(plane, time, name) / 2 for name in ("width", "length")]
     along = {"X": (2, 1), "Y": (0, 2), "Z": (0, 1)}[_axis(plane, time)]
     corners = np.zeros((4, 3), "<f8")
     for axis, extent, signs in zip(along, half, ((-1, 1, 1, -1), (-1, -1, 1, 1)), strict=True):
@@ -103,7 +101,7 @@ def _quad(plane: Any, time: Any) -> tuple[bytes, bytes]:
     return corners.tobytes(), np.array([0, 1, 2, 0, 2, 3], "<u4").tobytes()
 
 
-def _number(prim: Any, name: str, time: Any) -> float:
+def _number(prim: Any, time: Any, name: str) -> float:
     value = prim.GetAttribute(name).Get(time)
     if not isinstance(value, float | int):
         raise Refused("bad-record", f"{type_of(prim)}: {name} is no number")

@@ -118,7 +118,6 @@ class _Look:
         yield from self._of_properties()
         yield from self._of_tokens()
         yield from self._of_ops()
-        yield from self._of_cards()
         yield from self._of_skeleton()
         yield from self._of_exemptions()
         if self._choice.collides(prim):
@@ -155,6 +154,10 @@ class _Look:
                 if not prim.GetStage().GetPrimAtPath(other):
                     words = f"it is like {other}, which is no prim: its geometry may be missing"
                     yield "left-out", words
+            if prim.HasAPI(UsdGeom.ModelAPI) or prim.HasAttribute("model:drawMode"):
+                mode = UsdGeom.ModelAPI(prim).GetModelDrawModeAttr().Get()
+                if mode not in (None, "default", "inherited"):
+                    yield "unread", f"it is drawn as its extent ({mode}), which is no body"
         for clips in (prim.GetMetadata("clips") or {}).values():
             names.CLIPS.refuse_misspelt(clips, f"{self._path}: clips")
         for words in why_not_applied(prim) if self._has_below else ():
@@ -310,13 +313,6 @@ class _Look:
         for lost in sorted(set(binding.GetJointsAttr().Get() or ()).difference(known))[:1]:
             yield "unread", f"skel:joints has {lost}, which its skeleton lacks"
 
-    def _of_cards(self) -> Found:
-        prim = self._prim
-        if prim.HasAPI(UsdGeom.ModelAPI) or prim.HasAttribute("model:drawMode"):
-            mode = UsdGeom.ModelAPI(prim).GetModelDrawModeAttr().Get()
-            if mode not in (None, "default", "inherited") and not self._has_below:
-                yield "unread", f"it is drawn as its extent ({mode}), which is no body"
-
     def _of_variants(self) -> Found:
         prim, sets = self._prim, self._prim.GetVariantSets()
         declared = sets.GetNames()
@@ -394,9 +390,9 @@ def holds_geometry(spec: Any, kind: str = "") -> bool:
 
 def _shapes(spec: Any) -> bool:
     """Whether a prim spec, or one below it, may make, move, hide or shape a body."""
-    own = holds_geometry(spec) or spec.HasInfo("active")
     return (
-        own
+        holds_geometry(spec)
+        or spec.HasInfo("active")
         or any(each.name in names.SHAPING for each in spec.properties)
         or any(map(_shapes, spec.nameChildren))
     )

@@ -80,7 +80,8 @@ class Walk:
     def prims(self) -> Iterator[PlacedPrim]:
         """Every active, defined prim but the prototypes of point instancers; and each instance of
         these. Raises Refused for more than the limit."""
-        yield from self._below(Usd.PrimRange.Stage(self._stage, _WITH_INSTANCES), WORLD)
+        prims = Usd.PrimRange.Stage(self._stage, Usd.TraverseInstanceProxies())
+        yield from self._below(prims, WORLD)
 
     def _below(self, prims: Any, frame: Frame) -> Iterator[PlacedPrim]:
         each = iter(prims)
@@ -169,7 +170,6 @@ class Walk:
         ]
 
 
-_WITH_INSTANCES = Usd.TraverseInstanceProxies()
 # Prototypes may be below an `over`, so that they are not drawn by themselves.
 _OF_PROTOTYPES = Usd.TraverseInstanceProxies(
     Usd.PrimIsActive & Usd.PrimIsLoaded & ~Usd.PrimIsAbstract

@@ -4,17 +4,16 @@ motions, in rational numbers."""
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
+from operator import add
 from typing import Any
 
 import numpy as np
 
 from satcheck.report.statics import (
     BodyContact,
-    BodyIsland,
-    ContactPoint,
     FirstMotion,
     Statics,
     SupportedBody,
@@ -24,9 +23,10 @@ from satcheck.report.verification import CheckedSupport
 from satcheck.scene.statics import QUESTIONS
 from satcheck.verify.answers import body_terms, checked, once
 from satcheck.verify.bodies import Placed
-from satcheck.verify.exact import NotCertified, Point, Rejected, cross, dot, sub
+from satcheck.verify.exact import NotCertified, Point, Rejected, cross, dot, point, sub
 from satcheck.verify.pairs import vector
-from satcheck.verify.statics.contacts import ROUNDING, Contacts, Place, check_apart
+from satcheck.verify.relations import check_apart
+from satcheck.verify.statics.contacts import ROUNDING, Contacts, Place
 from satcheck.verify.statics.weights import Weight, covers_once, weight_of
 
 SAME_WEIGHT = 1e-9  # relative
@@ -136,34 +136,35 @@ class Claims:
         if body is None or body.fixed is not None:
             return False
         island = self.statics.islands[self._island(body)]
-        if island.doubtful or (island.squeezed is None and self._is_beside_walls(island)):
+        beside_walls = island.squeezed is None and any(
+            abs(np.array(point.normal) @ np.array(self.statics.gravity)) < STEEP
+            for contact in self._contacts_of(set(island.bodies))
+            for point in contact.points
+        )
+        if island.doubtful or beside_walls:
             raise Rejected("a body that may fall although forces hold it has a warning")
         return False
 
-    def _is_beside_walls(self, island: BodyIsland) -> bool:
-        down, members = np.array(self.statics.gravity), set(island.bodies)
-        return any(
-            abs(np.array(point.normal) @ down) < STEEP
-            for contact in self.statics.contacts
-            if members & {contact.a, contact.b}
-            for point in contact.points
-        )
+    def _contacts_of(self, members: set[str]) -> list[BodyContact]:
+        return [each for each in self.statics.contacts if members & {each.a, each.b}]
 
     def _check_island(self, number: int, strict: bool) -> None:
         """That forces hold all bodies of an island."""
         members = set(self.statics.islands[number].bodies)
         pushes: dict[str, list[Push]] = {name: [] for name in members}
-        for contact in self.statics.contacts:
-            if not members & {contact.a, contact.b}:
-                continue
-            for point in contact.points:
-                if point.force is None:
+        for contact in self._contacts_of(members):
+            for at in contact.points:
+                if at.force is None:
                     continue
-                self._check_force(contact, point, strict)
+                place = self.contacts.at(contact, at)
+                if strict and not self.contacts.is_strict(contact.a, contact.b, place):
+                    raise Rejected(f"{contact.a} and {contact.b}: a force needs the tolerance")
+                friction = Fraction(self._friction(contact.a, contact.b))
+                _check_in_cone(vector(at.force), vector(place.normal.tolist()), friction)
                 for name, sign in ((contact.a, 1), (contact.b, -1)):
                     if name in members:
-                        x, y, z = (sign * c for c in vector(point.force))
-                        pushes[name].append((vector(point.at), (x, y, z)))
+                        force = point(sign * c for c in vector(at.force))
+                        pushes[name].append((vector(at.at), force))
                     elif self.stated[name].fixed is None:
                         raise Rejected(f"{name} holds a body, and is not in its island")
         for name, own in pushes.items():
@@ -174,13 +175,6 @@ class Claims:
             for other in self.contacts.near(name):
                 if self.bodies[other].bounds is not None:
                     self.contacts.check_shallow(name, other)
-
-    def _check_force(self, contact: BodyContact, point: ContactPoint, strict: bool) -> None:
-        place = self.contacts.at(contact, point)
-        if strict and not self.contacts.is_strict(contact.a, contact.b, place):
-            raise Rejected(f"{contact.a} and {contact.b}: a force needs the tolerance")
-        friction = Fraction(self._friction(contact.a, contact.b))
-        _check_in_cone(vector(point.force or ()), vector(place.normal.tolist()), friction)
 
     def _check_moves(self, body: SupportedBody) -> None:
         """By a motion of all that moves in contact with it: no forces hold these bodies."""
@@ -222,7 +216,13 @@ class Claims:
                     own, against = (_velocity_at(motions.get(n), at) for n in (name, other))
                     worst = max(worst, _resistance(place, friction, sub(own, against)))
                 self.contacts.check_shallow(name, other)
-        _check_power(motions.values(), self.down, worst)
+        moving = motions.values()
+        power = sum((w.mass * dot(vector(m.velocity), self.down) for m, w in moving), Fraction(0))
+        if power <= 0:
+            raise Rejected("gravity does no work along the motion")
+        # Forces f >= 0 with f * worst < power cannot stop it.
+        if Fraction(worst) * LEAST_FACTOR * sum(weight.mass for _, weight in moving) > power:
+            raise Rejected("a contact resists the motion")
 
     def _check_afloat(self) -> None:
         """All bodies that float, together: none of them touches another one."""
@@ -280,11 +280,10 @@ def _check_balance(
 def _velocity_at(motion: Motion | None, at: Point) -> Point:
     """Of a point of a body that moves so; None: it is at rest."""
     if motion is None:
-        return Fraction(0), Fraction(0), Fraction(0)
+        return point((0, 0, 0))
     first, weight = motion
     turning = cross(vector(first.angular), sub(at, weight.centre))
-    x, y, z = (p + q for p, q in zip(vector(first.velocity), turning, strict=True))
-    return x, y, z
+    return point(map(add, vector(first.velocity), turning))
 
 
 def _resistance(place: Place, friction: float, relative: Point) -> float:
@@ -296,15 +295,3 @@ def _resistance(place: Place, friction: float, relative: Point) -> float:
     across = [r - opening * c for r, c in zip(relative, n, strict=True)]
     sliding = math.sqrt(dot(across, across))
     return max(friction * sliding - float(opening), 0.0)
-
-
-def _check_power(motions: Collection[Motion], down: Point, worst: float) -> None:
-    """Rejects a motion along which gravity does no work, or which contacts resist: by `worst`, the
-    largest _resistance. Forces f >= 0 with f * worst < power cannot stop it."""
-    works = (weight.mass * dot(vector(first.velocity), down) for first, weight in motions)
-    power = sum(works, Fraction(0))
-    if power <= 0:
-        raise Rejected("gravity does no work along the motion")
-    total = sum((weight.mass for _, weight in motions), Fraction(0))
-    if Fraction(worst) * LEAST_FACTOR * total > power:
-        raise Rejected("a contact resists the motion")

@@ -10,21 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cache, cached_property
-from math import hypot
 
 import numpy as np
 
-from satcheck.core.shapes import Sphere
 from satcheck.report.certificate import SurfacesProof
 from satcheck.report.statics import BodyContact, ContactPoint
 from satcheck.verify.bodies import Placed, box_gaps
-from satcheck.verify.exact import Floats, NotCertified, Rejected, point, sub
+from satcheck.verify.exact import Floats, NotCertified, Rejected, cross, grouped
 from satcheck.verify.findings import prove_way_out
-from satcheck.verify.pairs import any_pair_of, pair_of, vector
-from satcheck.verify.relations import prove
-from satcheck.verify.surfaces import comes_within, near_pairs, next_points
+from satcheck.verify.pairs import vector
+from satcheck.verify.relations import check_apart
+from satcheck.verify.surfaces import near_pairs, next_points
 from satcheck.verify.world import Exact, Indices, World
 
 SLACK = 1e-6
@@ -34,34 +31,6 @@ PARALLEL = 1e-6
 MOST_NEAR = 300_000
 # The sine of an angle below which two faces are one plane; that of the search is smaller.
 FLAT = 1e-10
-
-
-def check_apart(a: Placed, b: Placed, tolerance: float) -> None:
-    """Rejects bodies that are not farther apart than the tolerance. If one is a ball, the tolerance
-    may be negative: then the bodies may overlap by less than that."""
-    least = Fraction(tolerance)
-    if max(box_gaps(a, b)) > least:
-        return
-    if a.world is not None and b.world is not None:
-        pair = pair_of(a, b, a.world, b.world)
-        prove("separated", SurfacesProof(), pair, least, Fraction(0))
-        return
-    round_, other = (b, a) if b.world is None else (a, b)
-    centre, radius = ball(round_)
-    if other.world is None:
-        along = sub(point(centre), point(ball(other)[0]))
-        is_apart = any_pair_of(other, round_).gap(along, least) > 0
-    else:
-        mesh = Exact(other.world, other.world.lattice)
-        middle = mesh.at(centre)
-        reach = max(Fraction(radius) + least, Fraction(0))
-        is_apart = not comes_within(mesh, middle, reach, open_=False)
-        if is_apart and mesh.world.solid and mesh.winding(middle) != 0:
-            raise Rejected("a body that should be apart lies in another")
-    if not is_apart:
-        raise Rejected("bodies that should be apart are within the tolerance")
-
-
 # How far two computations of one contact may be off: of the largest coordinate, and of a normal.
 SAME_PLACE, SAME_NORMAL = 1e-9, 1e-6
 # Of the rounding of coordinates, as in the search for contacts, and as much to spare.
@@ -75,40 +44,36 @@ class Contacts:
 
     def __init__(self, bodies: Mapping[str, Placed], tolerance: float) -> None:
         self._bodies, self._tolerance = bodies, tolerance
-        self._places: dict[tuple[str, str], list[Place]] = {}
-        self._shallow = cache(self._is_shallow)
+        self._found, self._shallow = cache(self._places), cache(self._is_shallow)
 
     def near(self, name: str) -> list[str]:
         """Other bodies whose boxes are within the tolerance, or unknown."""
-        bounds = self._bodies[name].bounds
-        ids, low, high, known = self._boxes
-        if bounds is None:
-            return [id_ for id_ in ids if id_ != name]
-        gap = np.maximum(low - bounds[1], bounds[0] - high).max(axis=1)
-        near = (gap <= self._tolerance * (1 + SLACK)) | ~known
-        return [ids[k] for k in np.flatnonzero(near).tolist() if ids[k] != name]
+        low, high = self._boxes
+        own = list(self._bodies).index(name)
+        gap = np.maximum(low - high[own], low[own] - high).max(axis=1)
+        near = gap <= self._tolerance * (1 + SLACK)
+        return [
+            id_ for id_, is_near in zip(self._bodies, near, strict=True) if is_near and id_ != name
+        ]
 
     @cached_property
-    def _boxes(self) -> tuple[list[str], Floats, Floats, np.ndarray]:
-        bounds = [body.bounds for body in self._bodies.values()]
-        nowhere = np.zeros(3), np.zeros(3)
-        low, high = (np.array([(b or nowhere)[k] for b in bounds]) for k in (0, 1))
-        return list(self._bodies), low, high, np.array([b is not None for b in bounds])
+    def _boxes(self) -> Floats:
+        """The lower ends of all boxes, and the upper ones, (2, n, 3)."""
+        everywhere = np.full(3, -np.inf), np.full(3, np.inf)
+        boxes = [body.bounds or everywhere for body in self._bodies.values()]
+        return np.array(boxes).reshape(-1, 2, 3).swapaxes(0, 1)
 
     def between(self, a: str, b: str) -> list[Place]:
         """Contacts of A and B, normals from B to A. Raises NotCertified if they cannot be found."""
-        if (b, a) in self._places:
-            return [place.turned for place in self._places[b, a]]
-        if (a, b) not in self._places:
-            try:
-                self._places[a, b] = self._found(a, b)
-            except Rejected as why:
-                raise NotCertified(f"the contacts of {a} and {b}: {why}") from None
-        return self._places[a, b]
+        if b < a:
+            return [place.turned for place in self.between(b, a)]
+        try:
+            return self._found(a, b)
+        except Rejected as why:
+            raise NotCertified(f"the contacts of {a} and {b}: {why}") from None
 
-    def _found(self, a: str, b: str) -> list[Place]:
-        one, other = self._bodies[a], self._bodies[b]
-        tolerance = self._tolerance
+    def _places(self, a: str, b: str) -> list[Place]:
+        one, other, tolerance = self._bodies[a], self._bodies[b], self._tolerance
         if max(box_gaps(one, other)) > tolerance * (1 + SLACK):
             return []
         rounding = self.rounding(a, b)
@@ -116,12 +81,18 @@ class Contacts:
         if of_a is not None and of_b is not None:
             return places_of(of_a, of_b, tolerance, rounding)
         if of_b is not None:
-            centre, radius = ball(one)
+            centre, radius = one.ball
             return places_of_ball(np.array(centre), radius, of_b, tolerance, rounding)
         if of_a is not None:
-            return [place.turned for place in self._found(b, a)]
-        (p, r), (q, s) = ball(one), ball(other)
-        return place_of_balls(np.array(p), r, np.array(q), s, tolerance)
+            return [place.turned for place in self._places(b, a)]
+        (p, r), (q, s) = one.ball, other.ball
+        step = np.subtract(p, q)
+        distance = float(np.linalg.norm(step))
+        height = distance - r - s
+        if abs(height) > tolerance * (1 + SLACK) or distance == 0:
+            return []
+        n = step / distance
+        return [Place(np.array(q) + n * (s + 0.5 * height), n, height, True)]
 
     @cached_property
     def _surfaces(self) -> dict[str, Surface]:
@@ -207,18 +178,6 @@ def _passes(check: Callable[..., None], *arguments: object) -> bool:
     return True
 
 
-def ball(body: Placed) -> tuple[tuple[float, float, float], float]:
-    """(centre, radius). Raises NotCertified for other curved shapes, and for balls that are scaled
-    unevenly."""
-    image = None if body.curved is None else body.curved.image
-    if image is None or not isinstance(image.primitive, Sphere):
-        raise NotCertified(f"{body.id}: the contacts of such a shape are not certified")
-    stretch = [hypot(*column) for column in image.columns]
-    if max(stretch) - min(stretch) > 1e-12 * max(stretch):
-        raise NotCertified(f"{body.id}: the contacts of such a shape are not certified")
-    return image.origin, image.primitive.radius * stretch[0]
-
-
 @dataclass(frozen=True, slots=True)
 class Place:
     """at: world. normal: unit, from B to A. height: of A over B along it. exact: no tolerance bends
@@ -228,6 +187,14 @@ class Place:
     normal: Floats
     height: float
     exact: bool
+
+    @classmethod
+    def of(cls, at: Floats, step: Floats, n: Floats, low: float, rounding: float) -> Place:
+        """step: from B to A, next to each other there. low: how far faces reach below it along
+        n."""
+        height = float(step @ n)
+        aside = float(np.linalg.norm(step - height * n))
+        return cls(at, n, height, low >= -2 * rounding and aside <= rounding)
 
     @property
     def turned(self) -> Place:
@@ -256,10 +223,7 @@ class Surface:
     @cached_property
     def around(self) -> dict[int, tuple[Indices, Indices]]:
         """vertex -> (its neighbours, its faces)."""
-        faces: dict[int, list[int]] = {}
-        for t, corners in enumerate(self.triangles.tolist()):
-            for v in corners:
-                faces.setdefault(v, []).append(t)
+        faces = grouped((v, t) for t, c in enumerate(self.triangles.tolist()) for v in c)
         return {
             v: (np.setdiff1d(self.triangles[own], [v]), np.array(own)) for v, own in faces.items()
         }
@@ -267,11 +231,11 @@ class Surface:
     @cached_property
     def edges(self) -> dict[tuple[int, int], list[tuple[int, int]]]:
         """(u, v), u < v -> (face, its third vertex) of each face at the edge."""
-        edges: dict[tuple[int, int], list[tuple[int, int]]] = {}
-        for t, (i, j, k) in enumerate(self.triangles.tolist()):
-            for u, v, w in ((i, j, k), (j, k, i), (k, i, j)):
-                edges.setdefault((min(u, v), max(u, v)), []).append((t, w))
-        return edges
+        return grouped(
+            (side, (t, corners[k - 1]))
+            for t, corners in enumerate(self.triangles.tolist())
+            for k, side in enumerate(_sides(corners))
+        )
 
     def is_sharp(self, edge: tuple[int, int]) -> bool:
         """Whether its faces lie in several planes: a flat edge is no corner of any patch."""
@@ -298,8 +262,8 @@ def places_of(a: Surface, b: Surface, tolerance: float, rounding: float) -> list
             edges |= {
                 (e, f) for e in _sides(p) if a.is_sharp(e) for f in _sides(q) if b.is_sharp(f)
             }
-    places += _on_faces(a, b, sorted(of_a), near, rounding, 1.0)
-    places += _on_faces(b, a, sorted(of_b), near, rounding, -1.0)
+    places += _on_faces(a, b, sorted(of_a), near, rounding)
+    places += (place.turned for place in _on_faces(b, a, sorted(of_b), near, rounding))
     for p, q in sorted(edges):
         places += _across(a, b, p, q, near, rounding)
     return places
@@ -311,9 +275,9 @@ def _sides(corners: list[int]) -> list[tuple[int, int]]:
 
 
 def _on_faces(
-    a: Surface, b: Surface, pairs: list[tuple[int, int]], near: float, rounding: float, sign: float
+    a: Surface, b: Surface, pairs: list[tuple[int, int]], near: float, rounding: float
 ) -> Iterator[Place]:
-    """Vertices of a over faces of b. sign: -1.0 where a is B."""
+    """Vertices of A over faces of B."""
     v, face = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
     points, normals = a.points[v], b.normals[face]
     feet = points + next_points(b.points[b.triangles[face]] - points[:, None])
@@ -324,10 +288,7 @@ def _on_faces(
         lowest = float(((a.points[neighbours] - p) @ n).min())
         if lowest < -2 * near or (a.normals[faces] @ n).min() >= SLACK:
             continue
-        height = float(step @ n)
-        aside = float(np.linalg.norm(step - height * n))
-        exact = lowest >= -2 * rounding and aside <= rounding
-        yield Place(feet[k], sign * n, height, exact)
+        yield Place.of(feet[k], step, n, lowest, rounding)
 
 
 def _across(
@@ -345,20 +306,16 @@ def _across(
     length, sine = np.linalg.norm(u) * np.linalg.norm(v), np.linalg.norm(n)
     if sine <= PARALLEL * length:
         return
-    n = n / sine
-    on_a, on_b = _nearest(p0, u, q0, v)
+    on_a, on_b = _nearest(p0, u, q0, v, float(n @ n))
     step = on_a - on_b
     if step @ step > near * near:
         return
-    for normal in (n, -n):
+    for normal in (n / sine, -n / sine):
         low, out_a = _below(a, p, p0, normal)
         high, out_b = _below(b, q, q0, -normal)
         if min(low, high) < -2 * near or out_a >= SLACK or out_b >= SLACK:
             continue
-        height = float(step @ normal)
-        aside = float(np.linalg.norm(step - height * normal))
-        exact = min(low, high) >= -2 * rounding and aside <= rounding
-        yield Place(0.5 * (on_a + on_b), normal, height, exact)
+        yield Place.of(0.5 * (on_a + on_b), step, normal, min(low, high), rounding)
 
 
 def _below(s: Surface, edge: tuple[int, int], at: Floats, n: Floats) -> tuple[float, float]:
@@ -368,12 +325,11 @@ def _below(s: Surface, edge: tuple[int, int], at: Floats, n: Floats) -> tuple[fl
     return float(((wings - at) @ n).min()), float((s.normals[[t for t, _ in faces]] @ n).min())
 
 
-def _nearest(p: Floats, u: Floats, q: Floats, v: Floats) -> tuple[Floats, Floats]:
-    """The nearest points of two lines that are not parallel, moved to the ends of the segments."""
+def _nearest(p: Floats, u: Floats, q: Floats, v: Floats, area: float) -> tuple[Floats, Floats]:
+    """The nearest points of two lines that are not parallel, moved to the ends of the segments.
+    area: |u x v|^2."""
     w = p - q
     uu, uv, vv, uw, vw = (float(x @ y) for x, y in ((u, u), (u, v), (v, v), (u, w), (v, w)))
-    n = _cross(u, v)
-    area = float(n @ n)
     s = min(max((uv * vw - vv * uw) / area, 0.0), 1.0)
     t = min(max((uu * vw - uv * uw) / area, 0.0), 1.0)
     return p + s * u, q + t * v
@@ -381,8 +337,7 @@ def _nearest(p: Floats, u: Floats, q: Floats, v: Floats) -> tuple[Floats, Floats
 
 def _cross(u: Floats, v: Floats) -> Floats:
     """Of two vectors; np.cross takes ten times as long for a single pair."""
-    (a, b, c), (d, e, f) = u.tolist(), v.tolist()
-    return np.array((b * f - c * e, c * d - a * f, a * e - b * d))
+    return np.array(cross(u.tolist(), v.tolist()))
 
 
 def places_of_ball(
@@ -410,16 +365,3 @@ def places_of_ball(
         if all(float(((c - foot) @ n).max()) <= 4 * rounding for c in beside):
             places.append(Place(foot, n, distance - radius, True))
     return places
-
-
-def place_of_balls(
-    centre: Floats, radius: float, other: Floats, other_radius: float, tolerance: float
-) -> list[Place]:
-    """Of two balls, A first."""
-    step = centre - other
-    distance = float(np.linalg.norm(step))
-    height = distance - radius - other_radius
-    if abs(height) > tolerance * (1 + SLACK) or distance == 0:
-        return []
-    n = step / distance
-    return [Place(other + n * (other_radius + 0.5 * height), n, height, True)]

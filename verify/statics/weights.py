@@ -24,14 +24,7 @@ from satcheck.core.shapes import (
     sizes_of,
 )
 from satcheck.verify.bodies import Placed
-from satcheck.verify.curved import Curved
-from satcheck.verify.exact import (
-    Point,
-    Rejected,
-    cross,
-    dot,
-    point,
-)
+from satcheck.verify.exact import Point, Rejected, cross, dot, point
 from satcheck.verify.surfaces import meeting
 from satcheck.verify.world import Exact, World, connected
 
@@ -50,7 +43,11 @@ def weight_of(body: Placed, mass: float | None, density: float | None) -> Weight
     """mass, density: as rules state them; the density is 1 by default. Rejects a body without a
     known volume."""
     if body.curved is not None:
-        volume, centre = _of_shape(body.curved)
+        # Up to the rounding of pi: forces are compared with it up to more than that.
+        unplaced, above = _unplaced(body.curved.image.primitive)
+        ends = zip(body.curved.image.origin, body.curved.image.columns[2], strict=True)
+        volume = abs(body.curved.determinant) * unplaced
+        centre = point(Fraction(o) + above * Fraction(axis) for o, axis in ends)
     elif body.world is not None and body.world.solid and not body.holed:
         volume, centre = _of_mesh(body.world)
     else:
@@ -100,14 +97,6 @@ def _of_mesh(world: World) -> tuple[Fraction, Point]:
         for axis in range(3):
             moments[axis] += part * (a[axis] + b[axis] + c[axis])
     return Fraction(six, 6 * scale**3), point(Fraction(m, 4 * six * scale) for m in moments)
-
-
-def _of_shape(shape: Curved) -> tuple[Fraction, Point]:
-    """The volume up to the rounding of pi: forces are compared with it up to more than that."""
-    volume, above = _unplaced(shape.image.primitive)
-    ends = zip(shape.image.origin, shape.image.columns[2], strict=True)
-    centre = point(Fraction(o) + above * Fraction(axis) for o, axis in ends)
-    return abs(shape.determinant) * volume, centre
 
 
 def _unplaced(shape: Primitive) -> tuple[Fraction, Fraction]:

@@ -31,11 +31,9 @@ from satcheck.plugins.ifc.bcf import topics
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import numpy.typing as npt
 
-    from satcheck.plugins.ifc.bcf.topics import Member, Pair
+    from satcheck.plugins.ifc.bcf.topics import Pair
     from satcheck.report.report import Report
     from satcheck.scene import Body, Scene
 
@@ -89,6 +87,8 @@ def _extensions(found: Iterable[Sequence[Pair]]) -> Any:
 
 def _topic(guid: str, index: int, pairs: Sequence[Pair], views: list[Any]) -> Any:
     first = pairs[0]
+    # https://reproducible-builds.org
+    seconds = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
     return bcf.Topic(
         guid=guid,
         index=index,
@@ -98,7 +98,7 @@ def _topic(guid: str, index: int, pairs: Sequence[Pair], views: list[Any]) -> An
         title=topics.title(pairs),
         description=topics.description(pairs),
         labels=bcf.TopicLabels(label=list(first.labels)) if first.labels else None,
-        creation_date=_date(),
+        creation_date=XmlDateTime.from_datetime(datetime.fromtimestamp(seconds, UTC)),
         creation_author=AUTHOR,
         viewpoints=bcf.TopicViewpoints(view_point=views),
     )
@@ -112,29 +112,20 @@ def _header(pairs: Iterable[Pair]) -> Any:
     return bcf.Header(files=bcf.HeaderFiles(file=named))
 
 
-def _date() -> Any:
-    """Return the date of topics: now, or SOURCE_DATE_EPOCH (https://reproducible-builds.org), in
-    UTC."""
-    seconds = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
-    return XmlDateTime.from_datetime(datetime.fromtimestamp(seconds, UTC))
-
-
 def _archive(files: Mapping[str, Any]) -> bytes:
-    """files: name -> a picture, or what is an XML file."""
+    """files: name -> a picture, or what is an XML file. Names may hold characters that XML cannot
+    hold. The writer is named, since the one by default depends on whether lxml is installed."""
+    xml = XmlSerializer(writer=XmlEventWriter)
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as packed:
         for name, data in files.items():
             entry = zipfile.ZipInfo(name)  # its date is the earliest of zip
-            written = data if isinstance(data, bytes) else _xml(data)
+            if isinstance(data, bytes):
+                written: bytes | str = data
+            else:
+                written = "\n".join(map(harmless, xml.render(data).split("\n")))
             packed.writestr(entry, written, zipfile.ZIP_DEFLATED)
     return content.getvalue()
-
-
-def _xml(element: Any) -> str:
-    """Names may hold characters that XML cannot hold. The writer is named, since the one by default
-    depends on whether lxml is installed."""
-    text = XmlSerializer(writer=XmlEventWriter).render(element)
-    return "\n".join(map(harmless, text.split("\n")))
 
 
 class Snapshots:
@@ -199,7 +190,13 @@ class Snapshots:
 
 def _components(pair: Pair) -> Any:
     """Both bodies, selected and coloured."""
-    both = [_component(member) for member in pair.members]
+    # Programs find an element by its GlobalId only.
+    both = [
+        bcf.Component(ifc_guid=member.guid)
+        if member.guid is not None
+        else bcf.Component(authoring_tool_id=member.id)
+        for member in pair.members
+    ]
     colours = [
         bcf.ComponentColoringColor(
             color=colour, components=bcf.ComponentColoringColorComponents(component=[each])
@@ -212,10 +209,3 @@ def _components(pair: Pair) -> Any:
         visibility=bcf.ComponentVisibility(view_setup_hints=hints, default_visibility=True),
         coloring=bcf.ComponentColoring(color=colours),
     )
-
-
-def _component(member: Member) -> Any:
-    """Programs find an element by its GlobalId only."""
-    if member.guid is None:
-        return bcf.Component(authoring_tool_id=member.id)
-    return bcf.Component(ifc_guid=member.guid)
