@@ -63,15 +63,20 @@ def origin_of(name: str) -> str:
 
 
 class Told(click.Option):
-    """An option whose help is made when it is shown: other packages may have registered by then."""
+    """An option whose help is made when it is read: few calls show it, and other packages may have
+    registered by then."""
 
     def __init__(self, names: Sequence[str], *, tell: Callable[[], str], **more: Any) -> None:
-        super().__init__(names, help=tell(), **more)
-        self.tell = tell
+        super().__init__(names, **more)
+        self._tell = tell
 
-    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        self.help = self.tell()
-        return super().get_help_record(ctx)
+    @property
+    def help(self) -> str | None:
+        return self._tell()
+
+    @help.setter
+    def help(self, _: str | None) -> None:
+        """click sets what it was given, which is nothing."""
 
 
 class _Range:
@@ -274,10 +279,12 @@ def setting(name: str, *spelled: str, note: str = "", **how: Any) -> Callable[[_
         how["is_flag"] = True
     elif value is not None and "multiple" not in how:
         how["show_default"] = True
-    text = f"{documentation(name)}  [default: {note}]" if note else documentation(name)
-    return click.option(
-        *(spelled or (f"--{name.replace('_', '-')}",)), default=value, help=text, **how
-    )
+
+    def tell() -> str:
+        return f"{documentation(name)}  [default: {note}]" if note else documentation(name)
+
+    names = spelled or (f"--{name.replace('_', '-')}",)
+    return click.option(*names, default=value, cls=Told, tell=tell, **how)
 
 
 planar = setting("planar", type=click.Choice(PLANES), metavar="PLANE")
