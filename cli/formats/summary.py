@@ -66,7 +66,9 @@ def counts_line(report: Report) -> str:
         if pairs.allowed:
             counts.append(f"{pairs.allowed:,} allowed")
         line += f": {', '.join(counts)}{_exempt(report)}"
-    more = [*_hits(report), *beside_baseline(report), *_cross_check(report)]
+    beside = BesideBaseline()
+    beside.note(report)
+    more = [*_hits(report), *beside.lines(), *_cross_check(report)]
     return " ".join([f"{line}.", *more])
 
 
@@ -177,12 +179,6 @@ class BesideBaseline(Struct):
         return [f"Baseline: {', '.join(parts)}{gone}.{advice}"]
 
 
-def beside_baseline(report: Report) -> list[str]:
-    beside = BesideBaseline()
-    beside.note(report)
-    return beside.lines()
-
-
 FACETED = "faceted"
 # More overlaps than this are rarely mended one by one.
 MANY = 10
@@ -218,7 +214,7 @@ def _after_failure(report: Report, written: bool) -> Iterator[str]:
     elif not written:
         yield f"-o report.html shows {'it' if len(failed) == 1 else 'them'} in 3-D"
     within = [f for f in overlaps if f.at_rest in ("contains", "inside")]
-    if _depends_on_holes(report, within):
+    if within and _depends_on_holes(report, within):
         yield "--allow-open, if the open meshes are meant to be open: they then have no inside"
 
 
