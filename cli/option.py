@@ -44,14 +44,9 @@ def in_units_of(value: Length, declared: str | None, option: str) -> float:
 def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
     """options: values of fields of Settings; a Length is converted to the units of the scene."""
     try:
-        return settings_in_units(options, scene, names_of_lengths(options))
+        return settings_in_units(options, scene, origin_of)
     except ValueError as error:
         raise click.UsageError(str(error)) from None
-
-
-def names_of_lengths(options: Mapping[str, Any]) -> dict[str, str]:
-    """What the user wrote for each length."""
-    return {name: origin_of(name) for name, value in options.items() if isinstance(value, Length)}
 
 
 def origin_of(name: str) -> str:
