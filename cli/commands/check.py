@@ -237,7 +237,9 @@ def command(
 
         for advice in about_assets(inputs.paths, scene):
             talk(str(advice))
-    scene, poses = _placed(scene, inputs)
+    poses = None
+    if inputs.has_poses:
+        scene, poses = _placed(scene, inputs)
     result: Report | SamplesReport
     if poses is None:
         asked = settings_of(options, scene)
@@ -258,8 +260,6 @@ def command(
 
 def _placed(scene: Scene, inputs: Inputs) -> tuple[Scene, Sequence[Pose] | None]:
     """The scene in the pose of the options, or the poses to check where there are several."""
-    if not inputs.has_poses:
-        return scene, None
     # With the readers of robots comes numpy.
     from satcheck.cli.posing import on_path, poses_of
     from satcheck.scene.robot import posed

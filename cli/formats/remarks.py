@@ -58,7 +58,8 @@ def remarks(report: Report, shown: Sequence[Finding], page: Page) -> list[str]:
     ]
     if (more := len(lines) - MOST) > 0:
         lines[MOST:] = [f"{counted(more, 'more remark')} on pairs: JSON has all"]
-    lines += [*_curved(report), *_no_opinion(report), *_of_bodies(report)]
+    lines += [*_curved(report), *(_no_opinion(report) if report.settings.cross_check else ())]
+    lines += _of_bodies(report)
     return [*fitted_each(lines, page), *_issues(report, shown, page)]
 
 
