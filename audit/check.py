@@ -103,7 +103,8 @@ def check(
     pairs, examined, unexamined = _examined(
         bodies, close, planner, movers, progress, keep=cache is not None
     )
-    examined = with_figures(examined, settings, keep=cache is not None)
+    if any(pair.draft is not None for pair in examined):
+        examined = with_figures(examined, settings, keep=cache is not None)
     return _report(scene, bodies, planner, movers, pairs, examined, unexamined)
 
 

@@ -40,8 +40,6 @@ def with_figures(
     keep: do not release the data of the bodies."""
     pairs = list(examined)
     drafts = {k: pair.draft for k, pair in enumerate(pairs) if pair.draft is not None}
-    if not drafts:
-        return pairs
     overlap = {k: box_escape(d.pair.a.bounds, d.pair.b.bounds)[0] for k, d in drafts.items()}
     order = sorted(drafts, key=lambda k: (-overlap[k], k))
     left = budget = settings.work
