@@ -94,12 +94,17 @@ def check(
     bodies = place(scene, settings, cache)
     moving = bool(scene.motions) or scene.joint_path is not None
     planner = Planner(settings, bodies.book, scene.composed, moving=moving)
-    movers = _movers(scene, bodies, planner)
+    movers = None
+    if moving:
+        from satcheck.audit.motion.sweep import Movers
+
+        movers = Movers(scene, bodies, planner)
     close = ClosePairs(bodies, planner) if movers is None else movers.close()
     pairs, examined, unexamined = _examined(
         bodies, close, planner, movers, progress, keep=cache is not None
     )
-    examined = with_figures(examined, settings, keep=cache is not None)
+    if any(pair.draft is not None for pair in examined):
+        examined = with_figures(examined, settings, keep=cache is not None)
     return _report(scene, bodies, planner, movers, pairs, examined, unexamined)
 
 
@@ -213,14 +218,6 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
     from satcheck.scene.planar.flat_scene import flat_scene
 
     return flat_scene(scene, settings.planar, allow_open=settings.allow_open)
-
-
-def _movers(scene: Scene, bodies: PlacedBodies, planner: Planner) -> Movers | None:
-    if scene.joint_path is None and not scene.motions:
-        return None
-    from satcheck.audit.motion.sweep import Movers
-
-    return Movers(scene, bodies, planner)
 
 
 def _support(

@@ -271,32 +271,28 @@ def _careful(pairs: Sequence[Pair], order: Sequence[int]) -> Iterator[tuple[int,
 def examine_pair(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     """Return the finding of one pair. A failure becomes a finding."""
     draft = Draft(pair)
-
-    def examined() -> CheckedPair:
+    try:
         finding = examine(draft, climb)
         fails_now = finding.relation in OVERLAPS and fails(finding, pair.settings.fail_on)
         if pair.request.if_failing and fails_now:
             return CheckedPair(finding, (), draft, draft.steps, draft.wants_more)
         return finished(finding, draft)
+    except Exception as error:  # noqa: BLE001  the other pairs are still checked
+        return failed(draft, error)
 
-    return guarded(examined, draft)
 
-
-def guarded(step: Callable[[], CheckedPair], draft: Draft) -> CheckedPair:
-    """Return what the step returns, or what its failure says of the pair of the draft."""
-    try:
-        return step()
-    except core.TooManySteps:
+def failed(draft: Draft, error: Exception) -> CheckedPair:
+    """Return what an error that ended a step of a draft says of its pair."""
+    if isinstance(error, core.TooManySteps):
         return _checked(draft.indeterminate(TOO_MANY_STEPS), draft)
-    except Exception as error:
-        not_for_lack_of_memory(error)
-        import logging
+    not_for_lack_of_memory(error)
+    import logging
 
-        logging.getLogger("satcheck").debug("a pair failed", exc_info=True)
-        reason = f"internal error: {type(error).__name__}: {error}"
-        message = f"{draft.pair.a.id} and {draft.pair.b.id}: {reason}"
-        draft.issues.append(Issue(INTERNAL_ERROR, "error", None, None, message))
-        return _checked(draft.indeterminate(reason), draft)
+    logging.getLogger("satcheck").debug("a pair failed", exc_info=error)
+    reason = f"internal error: {type(error).__name__}: {error}"
+    message = f"{draft.pair.a.id} and {draft.pair.b.id}: {reason}"
+    draft.issues.append(Issue(INTERNAL_ERROR, "error", None, None, message))
+    return _checked(draft.indeterminate(reason), draft)
 
 
 def finished(finding: Finding, draft: Draft) -> CheckedPair:

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Sequence
 from msgspec.structs import replace
 
 from satcheck.audit.body import box_escape
-from satcheck.audit.checked_pairs import PARALLEL_PAIRS, CheckedPair, finished, guarded
+from satcheck.audit.checked_pairs import PARALLEL_PAIRS, CheckedPair, failed, finished
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import measure
 from satcheck.audit.parallel import in_parallel
@@ -40,8 +40,6 @@ def with_figures(
     keep: do not release the data of the bodies."""
     pairs = list(examined)
     drafts = {k: pair.draft for k, pair in enumerate(pairs) if pair.draft is not None}
-    if not drafts:
-        return pairs
     overlap = {k: box_escape(d.pair.a.bounds, d.pair.b.bounds)[0] for k, d in drafts.items()}
     order = sorted(drafts, key=lambda k: (-overlap[k], k))
     left = budget = settings.work
@@ -76,13 +74,13 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
     draft.pair = replace(pair, work=work, moved_steps=0, request=replace(request, by=by))
     try:
         with risky_step(f"measuring {a!r} and {b!r}"):
-            checked = guarded(lambda: CheckedPair(measure(draft), draft=draft), draft)
+            checked = CheckedPair(measure(draft), draft=draft)
     except LeftOut as error:
         reason = f"{a} and {b}: the process that measured this pair {error.message}"
         draft.issues.append(Issue(error.code, "warning", None, None, reason))
         checked = CheckedPair(finding, draft=draft)
-    if checked.draft is None:  # it failed, and what was proven before it stands
-        checked = replace(checked, finding=finding)
+    except Exception as error:  # noqa: BLE001  what was proven before it stands
+        checked = replace(failed(draft, error), finding=finding)
     steps = STEPS_OF_PAIR + STEPS_OF_TRIANGLE * pair.triangles
     return checked, draft.work - before + max(steps, draft.pair.moved_steps)
 
@@ -91,4 +89,7 @@ def _finished(pair: CheckedPair) -> CheckedPair:
     draft = pair.draft
     if draft is None:  # it failed while it was measured
         return pair
-    return guarded(lambda: finished(pair.finding, draft), draft)
+    try:
+        return finished(pair.finding, draft)
+    except Exception as error:  # noqa: BLE001  the other pairs are still checked
+        return failed(draft, error)

@@ -172,14 +172,14 @@ def _failed(report: Report) -> str:
     """Return `6 of 21 pairs overlap, 1 is too close; worst: box and lid overlap (thickness 1
     mm)`."""
     worst = failing(report)
-    said = [_kinds(worst, report)] if worst else []
-    if worst:
-        first = clause(worst[0], report, brief=True)
-        if len(worst) == 1 and len(first) > _MOST:
-            a, b = short_names(worst[0].a, worst[0].b)
-            first = clause(replace(worst[0], a=a, b=b), report, brief=True)
-        named = [first] if len(worst) == 1 else [*said, f"worst: {first}"]
-        said = named if len(worst) == 1 or len("; ".join(named)) <= _MOST else said
+    first = clause(worst[0], report, brief=True) if worst else ""
+    if len(worst) == 1 and len(first) > _MOST:
+        a, b = short_names(worst[0].a, worst[0].b)
+        first = clause(replace(worst[0], a=a, b=b), report, brief=True)
+    said = [first] if first else []
+    if len(worst) > 1:
+        kinds, named = _kinds(worst, report), f"worst: {first}"
+        said = [kinds, named] if len(f"{kinds}; {named}") <= _MOST else [kinds]
     said += _unmet(report)
     if worst and all(finding.severity != "error" for finding in worst):
         said.append(f"failed by --fail-on {report.settings.fail_on}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache, lru_cache
 from typing import Any, get_args, get_type_hints
 
@@ -157,11 +157,11 @@ _settings = lru_cache(maxsize=8, typed=True)(Settings)
 
 
 def settings_in_units(
-    values: Mapping[str, Any], scene: Scene, names: Mapping[str, str]
+    values: Mapping[str, Any], scene: Scene, named: Callable[[str], str]
 ) -> Settings:
     """values: of the fields of Settings by name; a Length is converted to the units of the scene.
-    A body alone has no pair that a length could be about: its units do not matter. names: what a
-    message calls these values.
+    A body alone has no pair that a length could be about: its units do not matter. named: returns
+    what a message calls a value.
 
     Raises ValueError if the units of the scene are unknown, and what Settings raises.
     """
@@ -169,7 +169,7 @@ def settings_in_units(
     plain = {name: value for name, value in values.items() if name not in lengths}
     if len(scene.bodies) + len(scene.unreadable) > 1 or unit_of(scene.units):
         for name, value in lengths.items():
-            plain[name] = length_in_units(value, scene.units, names[name])
+            plain[name] = length_in_units(value, scene.units, named(name))
     return _settings(**plain)
 
 

@@ -16,7 +16,7 @@ from satcheck.audit.planner import FOR_FAILURES, Planner
 from satcheck.core import largest_stretch
 from satcheck.core.conventions import Plane, axes_of
 from satcheck.core.errors import SatcheckError
-from satcheck.report.bodies import Outline, StatedShape
+from satcheck.report.bodies import Outline
 from satcheck.report.report import (
     BEYOND_BUDGET,
     EFFECTS,
@@ -45,7 +45,6 @@ from satcheck.report.verdict import exempt_by, fails, unlisted_indeterminate
 from satcheck.scene import Body, Unreadable
 from satcheck.scene.bodies import Accepted
 from satcheck.scene.planar.outline import Outline as FlatOutline
-from satcheck.scene.planar.outline import Shape
 from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
@@ -137,6 +136,7 @@ def _body_report(body: PlacedBody) -> BodyReport:
     file, given = body.body.file, body.body.as_given or body.body
     known = body.shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
+    shape = given.shape
     return BodyReport(
         id=body.id,
         name=body.body.name,
@@ -156,7 +156,7 @@ def _body_report(body: PlacedBody) -> BodyReport:
         convex=body.shared.geometry.known_convex,
         parts=None if parts is None else len(parts.parts),
         part_error=None if parts is None else _part_error(body, parts),
-        shape=stated_shape(given.shape),
+        shape=Outline(shape.points) if isinstance(shape, FlatOutline) else shape,
     )
 
 
@@ -164,10 +164,6 @@ def _part_error(body: PlacedBody, parts: Decomposition) -> PartError:
     """Return the error of parts in file coordinates, world units."""
     stretch = body.largest_stretch
     return PartError(parts.outside * stretch, parts.missing * stretch)
-
-
-def stated_shape(shape: Shape | None) -> StatedShape | None:
-    return Outline(shape.points) if isinstance(shape, FlatOutline) else shape
 
 
 def issues_of(

@@ -44,14 +44,9 @@ def in_units_of(value: Length, declared: str | None, option: str) -> float:
 def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
     """options: values of fields of Settings; a Length is converted to the units of the scene."""
     try:
-        return settings_in_units(options, scene, names_of_lengths(options))
+        return settings_in_units(options, scene, origin_of)
     except ValueError as error:
         raise click.UsageError(str(error)) from None
-
-
-def names_of_lengths(options: Mapping[str, Any]) -> dict[str, str]:
-    """What the user wrote for each length."""
-    return {name: origin_of(name) for name, value in options.items() if isinstance(value, Length)}
 
 
 def origin_of(name: str) -> str:
@@ -63,15 +58,20 @@ def origin_of(name: str) -> str:
 
 
 class Told(click.Option):
-    """An option whose help is made when it is shown: other packages may have registered by then."""
+    """An option whose help is made when it is read: few calls show it, and other packages may have
+    registered by then."""
 
     def __init__(self, names: Sequence[str], *, tell: Callable[[], str], **more: Any) -> None:
-        super().__init__(names, help=tell(), **more)
-        self.tell = tell
+        super().__init__(names, **more)
+        self._tell = tell
 
-    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        self.help = self.tell()
-        return super().get_help_record(ctx)
+    @property
+    def help(self) -> str | None:
+        return self._tell()
+
+    @help.setter
+    def help(self, _: str | None) -> None:
+        """click sets what it was given, which is nothing."""
 
 
 class _Range:
@@ -274,10 +274,12 @@ def setting(name: str, *spelled: str, note: str = "", **how: Any) -> Callable[[_
         how["is_flag"] = True
     elif value is not None and "multiple" not in how:
         how["show_default"] = True
-    text = f"{documentation(name)}  [default: {note}]" if note else documentation(name)
-    return click.option(
-        *(spelled or (f"--{name.replace('_', '-')}",)), default=value, help=text, **how
-    )
+
+    def tell() -> str:
+        return f"{documentation(name)}  [default: {note}]" if note else documentation(name)
+
+    names = spelled or (f"--{name.replace('_', '-')}",)
+    return click.option(*names, default=value, cls=Told, tell=tell, **how)
 
 
 planar = setting("planar", type=click.Choice(PLANES), metavar="PLANE")

@@ -28,7 +28,7 @@ from satcheck.cli import exit_codes
 from satcheck.cli.format_option import Target
 from satcheck.cli.inputs import Inputs
 from satcheck.cli.interrupts import write_before_the_end
-from satcheck.cli.option import names_of_lengths
+from satcheck.cli.option import origin_of
 from satcheck.cli.output import Document, cannot_write, issue_line, talk, tell_issues
 from satcheck.cli.progress import Bar
 from satcheck.cli.rendering import Delivery
@@ -40,6 +40,7 @@ from satcheck.scene.access import Permitted
 from satcheck.scene.asset_files import Assets, asset_files
 from satcheck.scene.loader import LoadOptions, has_only_rules, read_rules
 from satcheck.scene.opening import STANDARD_INPUT
+from satcheck.scene.units import Length
 from satcheck.scene.words import listed
 
 if TYPE_CHECKING:
@@ -259,7 +260,7 @@ def check_options(
     return CheckOptions(
         **{name: getattr(inputs, name) for name in LoadOptions.__struct_fields__},
         settings=options,
-        names=names_of_lengths(options),
+        names={name: origin_of(name) for name, each in options.items() if isinstance(each, Length)},
         baseline=None if baseline is None else str(baseline),
         config=config,
     )

@@ -57,11 +57,6 @@ def severity_of_answer(answer: State, own: str | None) -> Severity:
     return "silenced" if own == "none" else own or "error"  # type: ignore[return-value]
 
 
-def _unlisted(counts: PairCounts, findings: Sequence[Finding]) -> int:
-    """Return the number of checked pairs without a finding."""
-    return counts.asked - len(findings)
-
-
 def unlisted_indeterminate(counts: PairCounts, findings: Sequence[Finding]) -> int:
     """Return the number of undecidable pairs without a finding."""
     return counts.indeterminate - sum(f.relation == "indeterminate" for f in findings)
@@ -73,7 +68,7 @@ def summarise(report: Report) -> Summary:
     fail_on = report.settings.fail_on
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
     unlisted_open = unlisted_indeterminate(counts, findings)
-    by_relation["separated"] += _unlisted(counts, findings) - unlisted_open
+    by_relation["separated"] += counts.asked - len(findings) - unlisted_open
     by_relation["indeterminate"] += unlisted_open
     undecided = Counter(finding.undecided for finding in findings)
     verdict: Verdict = "pass"
@@ -101,7 +96,7 @@ def summarise(report: Report) -> Summary:
 
 def truncated_of(counts: PairCounts, findings: Sequence[Finding]) -> Truncated | None:
     """Return what the findings of the report leave out."""
-    left_out = _unlisted(counts, findings)
+    left_out = counts.asked - len(findings)
     if not left_out:
         return None
     unlisted_open = unlisted_indeterminate(counts, findings)

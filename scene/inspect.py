@@ -12,7 +12,8 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -42,30 +43,24 @@ from satcheck.scene.words import told_apart
 SHAPE_FORMAT = "shape"
 
 
-class ErrorsOf:
-    """Raises what goes wrong with a file meanwhile as Refused with its name, also what no
-    reader checks. A generator would take a thirtieth of the time of a small file."""
-
-    def __init__(self, path: str) -> None:
-        self._path = path
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, _: object, error: BaseException | None, __: object) -> None:
-        match error:
-            case SatcheckError():
-                message = error.with_line if isinstance(error, Refused) else error.message
-                raise Refused(error.code, message, file=self._path) from error.__cause__
-            case TooManySteps():
-                message = "a mesh takes too many steps to inspect: simplify it, or split it"
-                raise Refused("too-many-steps", message, file=self._path) from error
-            case MemoryError():
-                not_for_lack_of_memory(error)
-                raise Refused("reader-out-of-memory", "out of memory", file=self._path) from error
-            case OverflowError() | ValueError():
-                code = "out-of-range" if isinstance(error, OverflowError) else "bad-record"
-                raise Refused(code, str(error), file=self._path) from error
+@contextmanager
+def errors_of(path: str) -> Iterator[None]:
+    """Raise what goes wrong with a file meanwhile as Refused with its name, also what no reader
+    checks."""
+    try:
+        yield
+    except SatcheckError as error:
+        message = error.with_line if isinstance(error, Refused) else error.message
+        raise Refused(error.code, message, file=path) from error.__cause__
+    except TooManySteps as error:
+        message = "a mesh takes too many steps to inspect: simplify it, or split it"
+        raise Refused("too-many-steps", message, file=path) from error
+    except MemoryError as error:
+        not_for_lack_of_memory(error)
+        raise Refused("reader-out-of-memory", "out of memory", file=path) from error
+    except (OverflowError, ValueError) as error:
+        code = "out-of-range" if isinstance(error, OverflowError) else "bad-record"
+        raise Refused(code, str(error), file=path) from error
 
 
 def mesh_file(
@@ -79,7 +74,7 @@ def mesh_file(
     """Inspect a mesh of a file.
 
     raw: the mesh as read. mesh: a piece of it, or all of it, in place of its bytes; None: all.
-    part: its name in the file. placed: the file itself places it. Raises what `ErrorsOf` takes.
+    part: its name in the file. placed: the file itself places it. Raises what `errors_of` takes.
     """
     if not (raw.triangles if mesh is None else mesh.triangle_count):
         vertices = len(raw.vertices) // 24

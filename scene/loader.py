@@ -123,7 +123,8 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
             for path in _as_texts(self.rules):
                 builder.add(read_rules(path, permitted))
             scene = builder.scene()
-            unused = _unused(reading, files, [path for path, kind in given if kind == "robot"])
+            robots = [path for path, kind in given if kind == "robot"]
+            unused = _unused(reading, files, robots) if reading else {}
         if wrong := [name for name in unused if name in must_count]:
             raise SatcheckError(UNUSED_OPTION, unused[wrong[0]])
         if not unused and not self.between:
@@ -179,8 +180,6 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
 
 def _unused(reading: ReadOptions, files: MeshFiles, robots: Iterable[str]) -> dict[str, str]:
     """The options that count for none of the files: name -> what is said about it."""
-    if not reading:
-        return {}
     counting = files.options()
     for path in robots:
         reader = reader_of_robot(path)

@@ -34,7 +34,7 @@ from satcheck.scene.files.readers import (
     required_reader,
 )
 from satcheck.scene.files.reading_children import ReadingChildren, read_in_child
-from satcheck.scene.inspect import ErrorsOf, mesh_file, remeshed, shape_file
+from satcheck.scene.inspect import errors_of, mesh_file, remeshed, shape_file
 from satcheck.scene.issue import Issue
 from satcheck.scene.opening import LARGE_FILE_BYTES, name_of, open_file, suffix_of
 from satcheck.scene.words import meant
@@ -109,7 +109,7 @@ class MeshFiles:
         return self._made[key]
 
     def _load(self, path: str, location: StrPath, split: Split) -> Document:
-        with _reading(path, location), ErrorsOf(path):
+        with _reading(path, location), errors_of(path):
             whole = split == "none"
             reader, file = open_file(path, location, required_reader, self.allowed, whole=whole)
             return bodies_of(file, self._read(reader, file, Document), split, reader.kind)

@@ -26,7 +26,7 @@ from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
 from satcheck.scene.document import NumberFormat, RawMesh
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import File
-from satcheck.scene.inspect import STEPS, ErrorsOf, mesh_file
+from satcheck.scene.inspect import STEPS, errors_of, mesh_file
 
 if TYPE_CHECKING:
     import numpy as np
@@ -159,7 +159,7 @@ def _mesh_file(id_: str, vertices: Array, faces: Array) -> MeshFile:
     indices = faces.astype(faces.dtype if faces.dtype.str in INDICES else "<i8", "C", copy=False)
     raw = RawMesh(b"", b"", _number_format(vertices))
     try:
-        with ErrorsOf(id_):
+        with errors_of(id_):
             mesh = core.Mesh(vertices.astype("<f8", "C", copy=False), indices)
             return mesh_file(File("memory", "", "", b"", path=id_), raw, mesh)
     except Refused as error:

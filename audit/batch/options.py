@@ -48,7 +48,7 @@ class CheckOptions(LoadOptions, frozen=True, kw_only=True):
     def settings_for(self, scene: Scene) -> Settings:
         """Lengths are in the units of the scene. Raises SatcheckError (`bad-setting`)."""
         try:
-            settings = settings_in_units(self.settings, scene, self.names)
+            settings = settings_in_units(self.settings, scene, self.names.__getitem__)
             return settings if self.baseline is None else measuring(settings)
         except ValueError as error:
             raise SatcheckError("bad-setting", str(error)) from None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -43,11 +42,6 @@ from satcheck.scene.files.readers import readers, robots
 if TYPE_CHECKING:
     from satcheck.scene.robot import Pose
 
-# Up to this, a check ends before the garbage collector could pay.
-SMALL_BODIES = 2
-SMALL_TRIANGLES = 1000
-# Objects made between two searches for cycles: of what a check makes almost none is in one.
-COLLECT_AFTER = 1_000_000
 FORMATS = FormatChoice(ALL)
 WIDTH = option.Number(0, 1, min_open=True, max_open=True)
 
@@ -238,13 +232,14 @@ def command(
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed="json" in to.forms)
-    _collect_garbage(scene)
     if len(inputs.paths) > 2:
         from satcheck.cli.slips import about_assets
 
         for advice in about_assets(inputs.paths, scene):
             talk(str(advice))
-    scene, poses = _placed(scene, inputs)
+    poses = None
+    if inputs.has_poses:
+        scene, poses = _placed(scene, inputs)
     result: Report | SamplesReport
     if poses is None:
         asked = settings_of(options, scene)
@@ -263,19 +258,8 @@ def command(
     return exit_codes.for_report(result, exit_zero=exit_zero)
 
 
-def _collect_garbage(scene: Scene) -> None:
-    """From here on, unless the check is small."""
-    if len(scene.bodies) > SMALL_BODIES or any(
-        body.file.health.triangles > SMALL_TRIANGLES for body in scene.bodies
-    ):
-        gc.enable()
-        gc.set_threshold(COLLECT_AFTER)
-
-
 def _placed(scene: Scene, inputs: Inputs) -> tuple[Scene, Sequence[Pose] | None]:
     """The scene in the pose of the options, or the poses to check where there are several."""
-    if not inputs.has_poses:
-        return scene, None
     # With the readers of robots comes numpy.
     from satcheck.cli.posing import on_path, poses_of
     from satcheck.scene.robot import posed

@@ -12,7 +12,6 @@ from satcheck.cli.click_classes import HELP_NAMES, Command
 from satcheck.cli.config import options_of_commands
 from satcheck.cli.format_option import FormatChoice
 from satcheck.cli.formats import registry
-from satcheck.cli.option import Told
 from satcheck.cli.output import Document
 from satcheck.report.assets import AssetsReport, Result
 from satcheck.report.axes import AxesReport
@@ -83,8 +82,7 @@ def _of_config() -> str:
 
 
 def _property(option: click.Option) -> dict[str, Any]:
-    told = option.tell() if isinstance(option, Told) else option.help or ""
-    described = {"description": " ".join(told.split("[default")[0].split())}
+    described = {"description": " ".join((option.help or "").split("[default")[0].split())}
     if option.is_flag:
         return {"type": "boolean", **described}
     if option.nargs > 1:

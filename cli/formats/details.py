@@ -42,12 +42,9 @@ MOST_PART_PAIRS = 8
 _Row = tuple[str, str, float | None, str]
 
 
-def support_lines(report: Report, page: Page) -> list[str]:
+def support_lines(statics: Statics, units: str | None, page: Page) -> list[str]:
     """The lines between the table and the remarks."""
-    statics = report.support
-    if statics is None:
-        return []
-    lines = fitted(f"Support: {', '.join(_assumptions(statics, report.units))}", page, BOLD)
+    lines = fitted(f"Support: {', '.join(_assumptions(statics, units))}", page, BOLD)
     bodies = {body.id: body for body in statics.bodies}
     answers = _by_body(statics)
     for body, findings in answers[:MOST_BODIES]:
@@ -208,18 +205,14 @@ def _part_row(pair: PartPair, finding: Finding) -> tuple[str, ...]:
     )
 
 
-def region_lines(report: Report, page: Page) -> list[str]:
+def region_lines(regions: Regions, units: str | None, page: Page) -> list[str]:
     """A line for each region with the number of bodies in it, and one for each other body."""
-    regions = report.regions
-    if not regions:
-        return []
-    unit = unit_of(report.units)
     lines = []
     findings = sorted(regions.findings, key=lambda finding: finding.region)
     for region, group in groupby(findings, key=lambda finding: finding.region):
         own = list(group)
         count = sum(finding.answer == "yes" for finding in own)
-        tolerance = with_unit(number(regions.tolerance), unit)
+        tolerance = with_unit(number(regions.tolerance), unit_of(units))
         said = f"Inside {region}: {count} of {counted(len(own), 'body', 'bodies')}"
         lines += fitted(f"{said} (tolerance {tolerance})", page, BOLD)
         lines += _others(own, page)

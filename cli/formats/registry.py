@@ -88,17 +88,19 @@ def formats(kinds: Iterable[Kind] = ALL) -> dict[str, Format]:
 
 def format_named(name: str) -> Format | None:
     """Return the format of this name; None: there is none."""
-    return _first(lambda each: each.name == name)
+    if name not in _registry():
+        add_others()
+    return _registry().get(name)
 
 
 def kind_of(name: str) -> Kind:
     """Return the kind of a format that a command has accepted."""
-    return _accepted(name).kind
+    return _registry()[name].kind
 
 
 def function_of(name: str) -> Callable[..., Any]:
     """Return what writes a format that a command has accepted."""
-    return cast("Callable[..., Any]", function_at(_accepted(name).render))
+    return cast("Callable[..., Any]", function_at(_registry()[name].render))
 
 
 def pieces(reports: Reports, name: str) -> Iterable[str]:
@@ -108,22 +110,9 @@ def pieces(reports: Reports, name: str) -> Iterable[str]:
 
 def format_of(ending: str) -> Format | None:
     """Return the format of files whose names end so; None: there is none."""
-    return _first(lambda each: ending in each.endings)
-
-
-def _accepted(name: str) -> Format:
-    found = format_named(name)
-    assert found is not None
-    return found
-
-
-def _first(is_meant: Callable[[Format], bool]) -> Format | None:
-    """Other packages are asked last."""
-    found = next(filter(is_meant, _registry().values()), None)
-    if found is None:
+    if not any(ending in each.endings for each in _registry().values()):
         add_others()
-        found = next(filter(is_meant, _registry().values()), None)
-    return found
+    return next((each for each in _registry().values() if ending in each.endings), None)
 
 
 def add_others() -> None:

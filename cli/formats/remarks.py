@@ -47,8 +47,10 @@ def remarks(report: Report, shown: Sequence[Finding], page: Page) -> list[str]:
     """One line for pairs of which the same is to be said, one a body, one for meshes that are not
     in order and decide nothing."""
     pairs: dict[str, list[str]] = {}
+    unit = unit_of(report.units)
     for finding in shown:
-        for text in _of_pair(finding, report):
+        said = (*_band(finding, report), *_undecided(finding, report), *_ruled(finding, report))
+        for text in (*said, *_moving(finding, unit)):
             pairs.setdefault(text, []).append(f"{finding.a} and {finding.b}")
     lines = [
         f"{about[0] if len(about) == 1 else counted(len(about), 'pair')}: {text}"
@@ -56,15 +58,9 @@ def remarks(report: Report, shown: Sequence[Finding], page: Page) -> list[str]:
     ]
     if (more := len(lines) - MOST) > 0:
         lines[MOST:] = [f"{counted(more, 'more remark')} on pairs: JSON has all"]
-    lines += [*_curved(report), *_no_opinion(report), *_of_bodies(report)]
+    lines += [*_curved(report), *(_no_opinion(report) if report.settings.cross_check else ())]
+    lines += _of_bodies(report)
     return [*fitted_each(lines, page), *_issues(report, shown, page)]
-
-
-def _of_pair(finding: Finding, report: Report) -> Iterator[str]:
-    yield from _band(finding, report)
-    yield from _undecided(finding, report)
-    yield from _ruled(finding, report)
-    yield from _moving(finding, unit_of(report.units))
 
 
 def _band(finding: Finding, report: Report) -> Iterator[str]:

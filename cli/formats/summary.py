@@ -65,23 +65,26 @@ def counts_line(report: Report) -> str:
         counts = _counts(report)
         if pairs.allowed:
             counts.append(f"{pairs.allowed:,} allowed")
-        line += f": {', '.join(counts)}{_exempt(report)}"
-    more = [*_hits(report), *beside_baseline(report), *_cross_check(report)]
+        line += f": {', '.join(counts)}{_exempt(report) if pairs.exempt else ''}"
+    more = _hits(report)
+    if report.baseline is not None:
+        beside = BesideBaseline()
+        beside.note(report)
+        more += beside.lines()
+    if report.settings.cross_check:
+        more.append(_cross_check(report))
     return " ".join([f"{line}.", *more])
 
 
 def _exempt(report: Report) -> str:
     """`; 1 pair exempt (static)`: of pairs that no other count includes."""
-    count = report.summary.pairs.exempt
-    if not count:
-        return ""
     still = sum(body.static for body in report.bodies) if report.exempt.static_pairs else 0
     static, in_group = exempt_by(report.summary.pairs, still)
     if static and in_group:
         why = f"{static:,} static, {in_group:,} within ignored groups"
     else:
         why = "static" if static else "within ignored groups"
-    return f"; {counted(count, 'pair')} exempt ({why})"
+    return f"; {counted(report.summary.pairs.exempt, 'pair')} exempt ({why})"
 
 
 def _counts(report: Report) -> list[str]:
@@ -125,11 +128,9 @@ def _first_time(hit: Sweep) -> float:
     return hit.time_of_impact[1] if hit.time_of_impact else 0.0
 
 
-def _cross_check(report: Report) -> list[str]:
+def _cross_check(report: Report) -> str:
     """`Cross-check: 5 answers agree, 1 disagrees, 1 pair not asked.`, an answer being that of one
     library on a pair. A missing answer is counted apart, not as agreement."""
-    if not report.settings.cross_check:
-        return []
     standings: Counter[str] = Counter()
     asked = 0
     for finding in report.findings:
@@ -137,7 +138,7 @@ def _cross_check(report: Report) -> list[str]:
         standings.update(results)
         asked += bool(results)
     if not asked:
-        return ["Cross-check: no pair was asked about."]
+        return "Cross-check: no pair was asked about."
     agree, disagree = standings.pop("agrees", 0), standings.pop("disagrees", 0)
     parts = [counted(agree, "answer agrees", "answers agree")]
     if disagree:
@@ -146,7 +147,7 @@ def _cross_check(report: Report) -> list[str]:
         parts.append(f"{missing:,} could not be had")
     if unasked := report.summary.pairs.total - report.summary.pairs.allowed - asked:
         parts.append(f"{counted(unasked, 'pair')} not asked about")
-    return [f"Cross-check: {', '.join(parts)}."]
+    return f"Cross-check: {', '.join(parts)}."
 
 
 class BesideBaseline(Struct):
@@ -175,12 +176,6 @@ class BesideBaseline(Struct):
         if self.states["new"] and not (self.absent or any(self.states[s] for s in _KNOWN)):
             advice = _UNKNOWN
         return [f"Baseline: {', '.join(parts)}{gone}.{advice}"]
-
-
-def beside_baseline(report: Report) -> list[str]:
-    beside = BesideBaseline()
-    beside.note(report)
-    return beside.lines()
 
 
 FACETED = "faceted"
@@ -218,7 +213,7 @@ def _after_failure(report: Report, written: bool) -> Iterator[str]:
     elif not written:
         yield f"-o report.html shows {'it' if len(failed) == 1 else 'them'} in 3-D"
     within = [f for f in overlaps if f.at_rest in ("contains", "inside")]
-    if _depends_on_holes(report, within):
+    if within and _depends_on_holes(report, within):
         yield "--allow-open, if the open meshes are meant to be open: they then have no inside"
 
 

@@ -93,10 +93,14 @@ def render(
     said = [*hidden(len(told) - len(shown), "pair"), *_passing(report, usable, told)]
     said += all_begin(root) if shown else []
     lines += fitted_each(said, page)
-    lines += component_lines(page, shown)
-    lines += part_lines(page, shown)
-    lines += support_lines(report, page)
-    lines += region_lines(report, page)
+    if report.settings.components:
+        lines += component_lines(page, shown)
+    if report.settings.parts:
+        lines += part_lines(page, shown)
+    if report.support is not None:
+        lines += support_lines(report.support, report.units, page)
+    if report.regions:
+        lines += region_lines(report.regions, report.units, page)
     if explain:
         lines += explanation(page, report, shown, timings=timings)
     lines += remarks(report, shown, page)

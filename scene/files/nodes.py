@@ -26,7 +26,7 @@ from satcheck.scene.document import (
 from satcheck.scene.errors import Refused
 from satcheck.scene.files import limits
 from satcheck.scene.files.readers import File
-from satcheck.scene.inspect import CRACK_WIDTH, ErrorsOf, file_resolution, mesh_file
+from satcheck.scene.inspect import CRACK_WIDTH, errors_of, file_resolution, mesh_file
 from satcheck.scene.issue import BLOCKING, issue
 
 # "none": the whole file is one body.
@@ -96,7 +96,7 @@ def _shapes_of(file: File, part: RawPart, said: list[tuple[str, str]], *, apart:
     if isinstance(raw, Refusal):
         return [("", Refused(raw.code, where + raw.message, file=file.path))]
     try:
-        with ErrorsOf(file.path):
+        with errors_of(file.path):
             if not isinstance(raw, RawMesh):
                 return [("", raw)]
             mesh = Mesh.from_bytes(raw.vertices, raw.triangles)

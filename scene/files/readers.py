@@ -429,7 +429,7 @@ def kind_of(path: str) -> InputKind:
         return "scene"
     if suffix == _SRDF:
         return "srdf"
-    if robots_of(suffix) and suffix not in readers():
+    if suffix not in readers() and robots_of(suffix):
         return "robot"
     reader = mesh_reader(suffix)
     if reader is not None:

@@ -21,7 +21,7 @@ from satcheck.audit.stages.relation import NO_STEPS_LEFT, TOO_MANY_STEPS
 from satcheck.report.report import INTERNAL_ERROR, Finding
 from satcheck.scene import load_scene
 from satcheck.scene.errors import Refused
-from satcheck.scene.inspect import ErrorsOf
+from satcheck.scene.inspect import errors_of
 
 
 def spent(*_: object) -> NoReturn:
@@ -38,7 +38,7 @@ def test_a_pair_beyond_the_budget_is_indeterminate(monkeypatch: pytest.MonkeyPat
 
 
 def test_a_mesh_beyond_the_budget_is_refused() -> None:
-    with pytest.raises(Refused) as refused, ErrorsOf("knot.obj"):
+    with pytest.raises(Refused) as refused, errors_of("knot.obj"):
         spent()
     assert (refused.value.code, refused.value.file) == ("too-many-steps", "knot.obj")
 

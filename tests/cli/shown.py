@@ -34,9 +34,13 @@ HIT_AT_60 = replace(HIT, motion=WAY)
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
 
 
-def shown(*findings: object, page: Page = PLAIN_PAGE, **options: bool) -> str:
+def shown(*findings: object, page: Page = PLAIN_PAGE, asked: str = "", **options: bool) -> str:
+    """asked: a setting that is on."""
+    made = report(*findings)  # type: ignore[arg-type]
+    if asked:
+        made = replace(made, settings=replace(made.settings, **{asked: True}))
     return render(
-        report(*findings),  # type: ignore[arg-type]
+        made,
         page,
         explain=options.get("explain", False),
         timings=options.get("timings", True),

@@ -254,7 +254,7 @@ def test_an_internal_error_is_no_unusable_input() -> None:
 def test_opinions_that_could_not_be_had_are_told_once() -> None:
     silent = Stage("cross-check", "no answer", 1.0, "python-fcl: it did not answer in 30 s")
     pairs = [replace(PENETRATING, id=str(k), plan=(*PENETRATING.plan, silent)) for k in range(2)]
-    text = shown(*pairs)
+    text = shown(*pairs, asked="cross_check")
     assert text.count("python-fcl") == 1
     assert "cross-check: no answer on 2 pairs: python-fcl: it did not answer in 30 s\n" in text
 

@@ -270,7 +270,7 @@ def test_while_the_command_is_still_imported(monkeypatch: pytest.MonkeyPatch) ->
             raise KeyboardInterrupt
 
     monkeypatch.setitem(sys.modules, "satcheck.cli.entry", Interrupted("satcheck.cli.entry"))
-    monkeypatch.setattr("gc.disable", lambda: None)
+    monkeypatch.setattr("gc.set_threshold", lambda _: None)
     with pytest.raises(SystemExit) as stop:
         cli.main()
     assert stop.value.code == 130

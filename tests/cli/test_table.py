@@ -153,7 +153,8 @@ def test_components_below_the_table() -> None:
         resolved=True,
     )
     thin = replace(thick, point=(0.5, 0.5, 1.0), thickness_bounds=(0.0, 0.1), passes=None)
-    text = shown(replace(CROSSING, components=Components((thick, *[thin] * 9), False)))
+    made = replace(CROSSING, components=Components((thick, *[thin] * 9), False))
+    text = shown(made, asked="components")
     a, b = CROSSING.a, CROSSING.b
     assert f"{a} and {b}: 10 connected overlaps, perhaps not all" in text
     first = f"  0.375 ±0.125 thick, at (0.5, 0.5, 0), volume 0.125, {a} passes through {b}, "
@@ -168,34 +169,37 @@ def test_parts_below_the_table() -> None:
     remark = "no parts overlap where the bodies do; peg sticks out of its parts by up to 1"
     made = PartPairs((2, 1), (deep, flush), 1, 0, 1)
     finding = replace(SEPARATED, b="peg", part_pairs=made)
-    text = shown(finding, page=WIDE)
+    text = shown(finding, page=WIDE, asked="parts")
     assert "\nblock (2 convex parts) and peg (1): 1 pair of parts overlaps\n" in text
     assert (
         "\n  block#2 x peg#1  penetrating  depth 0.31  axis (0, 0.6, 0.8)  gjk+epa, 7 iterations\n"
         "  block#1 x peg#1  touching                 axis (1, 0, 0)      exact, 15 axes\n"
     ) in text
     many = replace(made, pairs=(deep,) * 9 + (flush,), overlapping=3_000, untested=2, remark=remark)
-    text = shown(replace(finding, part_pairs=many), page=WIDE)
+    text = shown(replace(finding, part_pairs=many), page=WIDE, asked="parts")
     assert "peg (1): 3,000 pairs of parts overlap\n" in text
     assert text.count("block#2 x peg#1") == 8
     assert f"\n  2,993 more pairs\n  2 pairs of parts not tested\n  {remark}\n" in text
     untested = replace(finding, part_pairs=PartPairs((2, 1), untested=2))
-    assert "peg (1): no overlap of parts was found\n" in shown(untested, page=WIDE)
+    assert "peg (1): no overlap of parts was found\n" in shown(untested, page=WIDE, asked="parts")
     none = PartPairs(remark="no convex parts: a half space has no end: peg")
     without = replace(finding, part_pairs=none)
-    assert "\nno convex parts: a half space has no end: peg\n" in shown(without, page=WIDE)
+    assert "\nno convex parts: a half space has no end: peg\n" in shown(
+        without, page=WIDE, asked="parts"
+    )
     clear = replace(PENETRATING, part_pairs=PartPairs((2, 1)))
-    text = shown(without, replace(without, a="ball"), finding, clear, page=WIDE)
+    text = shown(without, replace(without, a="ball"), finding, clear, page=WIDE, asked="parts")
     assert "\n1 pair with no parts that overlap\n" in text
     assert text.count("a half space has no end: peg (2 pairs)\n") == 1
-    assert "peg" in shown(TOUCHING, finding)
-    assert "peg" not in shown(TOUCHING, replace(finding, part_pairs=PartPairs((2, 1))))
+    assert "peg" in shown(TOUCHING, finding, asked="parts")
+    clear = replace(finding, part_pairs=PartPairs((2, 1)))
+    assert "peg" not in shown(TOUCHING, clear, asked="parts")
 
 
 def test_parts_have_the_names_of_the_table() -> None:
     pair = PartPair("a/b#1#2", "a/c#1", "penetrating", 1.0, (1.0, 0.0, 0.0), "sat", 15, 0)
     named = replace(PENETRATING, a="a/b#1", b="a/c", part_pairs=PartPairs((2, 1), (pair,), 1))
-    text = shown(named, page=WIDE)
+    text = shown(named, page=WIDE, asked="parts")
     assert "  a/b#1#2 x a/c#1  penetrating  depth 1  axis (1, 0, 0)  sat, 15 axes\n" in text
 
 
