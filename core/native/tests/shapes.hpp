@@ -9,11 +9,14 @@
 
 namespace satcheck::testing {
 
+inline std::vector<Vec3> box_corners(Vec3 low, Vec3 high) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+  return points;
+}
+
 inline Mesh box(Vec3 low, Vec3 high) {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-  }
+  Mesh mesh{box_corners(low, high), {}};
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;

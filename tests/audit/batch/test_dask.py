@@ -33,12 +33,11 @@ def cluster() -> Iterator[LocalCluster]:
         "distributed.scheduler.allowed-failures": DEATHS_OF_WORKERS,
         "distributed.comm.timeouts.connect": "60s",
     }
-    with dask.config.set(settings), two_workers() as made:
+    with (
+        dask.config.set(settings),
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as made,
+    ):
         yield made
-
-
-def two_workers() -> LocalCluster:
-    return LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0")
 
 
 @pytest.fixture
@@ -50,7 +49,7 @@ def client(cluster: LocalCluster) -> Iterator[Client]:
 
 @pytest.fixture(scope="module")
 def worlds(tmp_path_factory: pytest.TempPathFactory) -> list[World]:
-    return make_worlds(tmp_path_factory.mktemp("worlds"), 60)
+    return make_worlds(tmp_path_factory.mktemp("worlds"), 40)
 
 
 @pytest.fixture(scope="module")
@@ -70,16 +69,10 @@ def through(cluster: LocalCluster, worlds: Sequence[World]) -> Iterator[list[Ans
     return check_with_dask(worlds, OPTIONS, LIMITS, cluster.scheduler_address)
 
 
-@pytest.mark.parametrize("workers", [2, 4])
+@pytest.mark.usefixtures("client")
 def test_answers_are_those_of_the_local_engine(
-    cluster: LocalCluster,
-    client: Client,
-    workers: int,
-    worlds: list[World],
-    expected: dict[World, bytes],
+    cluster: LocalCluster, worlds: list[World], expected: dict[World, bytes]
 ) -> None:
-    cluster.scale(workers)
-    client.wait_for_workers(workers, timeout=SECONDS)
     assert by_world(through(cluster, worlds)) == expected
 
 
@@ -104,14 +97,15 @@ def test_a_killed_worker_loses_nothing(
 
 
 def test_a_worker_that_is_closed_loses_nothing(
-    worlds: list[World], expected: dict[World, bytes]
+    cluster: LocalCluster, client: Client, worlds: list[World], expected: dict[World, bytes]
 ) -> None:
     """As by a cluster that becomes smaller: the end of its slots gives no wrong answers."""
-    with two_workers() as cluster, Client(cluster, set_as_default=False) as client:
-        answers = through(cluster, worlds)
-        first = next(answers)
-        client.retire_workers([next(iter(client.nthreads()))])
-        assert by_world(iter([first, *answers])) == expected
+    cluster.scale(3)
+    client.wait_for_workers(3, timeout=SECONDS)
+    answers = through(cluster, worlds)
+    first = next(answers)
+    client.retire_workers([next(iter(client.nthreads()))])
+    assert by_world(iter([first, *answers])) == expected
 
 
 class Poisoned(Slot):
@@ -138,7 +132,7 @@ def test_a_world_that_ends_every_worker_is_named(
     client.register_plugin(Poisoning(), "poison")
     poison = ("poison.toml",)
     try:
-        found = by_world(through(cluster, [*worlds[:30], poison, *worlds[30:]]))
+        found = by_world(through(cluster, [*worlds[:20], poison, *worlds[20:]]))
     finally:
         client.unregister_worker_plugin("poison")
     line = found.pop(poison)

@@ -5,6 +5,7 @@
 #include "convex/narrow_phase.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"
+#include "tests/shapes.hpp"
 
 using namespace satcheck;
 using namespace satcheck::testing;
@@ -12,12 +13,6 @@ using namespace satcheck::testing;
 namespace {
 
 using Points = std::vector<Vec3>;
-
-Points box(Vec3 low, Vec3 high) {
-  Points points;
-  for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-  return points;
-}
 
 double reach(const Points& points, Vec3 n) {
   double most = -INFINITY;
@@ -43,22 +38,22 @@ double depth(const Points& a, const Points& b) {
 }
 
 void test_closed_forms() {
-  const Points unit = box({0, 0, 0}, {1, 1, 1});
+  const Points unit = box_corners({0, 0, 0}, {1, 1, 1});
   CHECK(depth(unit, unit) == 1);
-  CHECK(depth(unit, box({0.75, -1, -1}, {2, 2, 2})) == 0.25);
-  CHECK(depth(box({-1, -1, -1}, {1, 1, 1}), box({-0.5, -0.25, -0.125}, {0.5, 0.25, 0.125})) == 1.125);
-  CHECK(depth({{0, 0, 0}}, box({-1, -2, -3}, {1, 2, 3})) == 1);
-  CHECK(depth({{-4, 0, 0}, {4, 0, 0}}, box({-1, -0.5, -2}, {1, 0.5, 2})) == 0.5);
+  CHECK(depth(unit, box_corners({0.75, -1, -1}, {2, 2, 2})) == 0.25);
+  CHECK(depth(box_corners({-1, -1, -1}, {1, 1, 1}), box_corners({-0.5, -0.25, -0.125}, {0.5, 0.25, 0.125})) == 1.125);
+  CHECK(depth({{0, 0, 0}}, box_corners({-1, -2, -3}, {1, 2, 3})) == 1);
+  CHECK(depth({{-4, 0, 0}, {4, 0, 0}}, box_corners({-1, -0.5, -2}, {1, 0.5, 2})) == 0.5);
   // A corner cut off the unit simplex: the plane x + y + z = 1 lies 1/4 / sqrt(3) above the corner.
   const Points simplex{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  CHECK(std::fabs(depth(simplex, box({0.25, 0.25, 0.25}, {2, 2, 2})) - 0.25 / std::sqrt(3.0)) <= 1e-16);
+  CHECK(std::fabs(depth(simplex, box_corners({0.25, 0.25, 0.25}, {2, 2, 2})) - 0.25 / std::sqrt(3.0)) <= 1e-16);
 }
 
 void test_what_float64_cannot_see() {
   const double ulp = std::ldexp(1, -52), thin = std::ldexp(1, -40);
-  CHECK(depth(box({0, 0, 0}, {1, 1, 1}), box({1 - ulp / 2, 0, 0}, {2, 1, 1})) == ulp / 2);
+  CHECK(depth(box_corners({0, 0, 0}, {1, 1, 1}), box_corners({1 - ulp / 2, 0, 0}, {2, 1, 1})) == ulp / 2);
   // Two plates of aspect 1e12 that share half their thickness.
-  CHECK(depth(box({-1, -1, 0}, {1, 1, thin}), box({-1, -1, thin / 2}, {1, 1, thin})) == thin / 2);
+  CHECK(depth(box_corners({-1, -1, 0}, {1, 1, thin}), box_corners({-1, -1, thin / 2}, {1, 1, thin})) == thin / 2);
 }
 
 // A flat and its copy an ulp aside: the difference is so thin that several planes have about one distance.

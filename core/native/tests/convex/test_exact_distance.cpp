@@ -2,6 +2,7 @@
 #include "convex/exact_distance.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"
+#include "tests/shapes.hpp"
 
 using namespace satcheck;
 using namespace satcheck::testing;
@@ -9,12 +10,6 @@ using namespace satcheck::testing;
 namespace {
 
 using Points = std::vector<Vec3>;
-
-Points box(Vec3 low, Vec3 high) {
-  Points points;
-  for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-  return points;
-}
 
 // Checks the length, its bounds, the normal and the witness points; returns the length.
 double distance(const Points& a, const Points& b) {
@@ -31,24 +26,24 @@ double distance(const Points& a, const Points& b) {
 }
 
 void test_features() {
-  const Points unit = box({0, 0, 0}, {1, 1, 1});
-  CHECK(distance(unit, box({3, 0, 0}, {4, 1, 1})) == 2);
-  CHECK(distance(unit, box({4, 5, 0}, {5, 6, 1})) == 5);
-  CHECK(distance(unit, box({3, 3, 2}, {4, 4, 3})) == 3);
+  const Points unit = box_corners({0, 0, 0}, {1, 1, 1});
+  CHECK(distance(unit, box_corners({3, 0, 0}, {4, 1, 1})) == 2);
+  CHECK(distance(unit, box_corners({4, 5, 0}, {5, 6, 1})) == 5);
+  CHECK(distance(unit, box_corners({3, 3, 2}, {4, 4, 3})) == 3);
   CHECK(distance({{0, 0, 0}}, {{0, 0, 0.5}}) == 0.5);
   CHECK(distance({{-1, 0, 0}, {1, 0, 0}}, {{0, -1, 2}, {0, 1, 2}}) == 2);
   CHECK(distance({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{1, 1, 1}, {1, 1, 9}}) == 1);
 }
 
-void test_what_float64_cannot_see() {
+void test_distances_that_float64_cannot_see() {
   const double ulp = std::ldexp(1, -52);
-  CHECK(distance(box({0, 0, 0}, {1, 1, 1}), box({1 + ulp, 0, 0}, {2, 1, 1})) == ulp);
+  CHECK(distance(box_corners({0, 0, 0}, {1, 1, 1}), box_corners({1 + ulp, 0, 0}, {2, 1, 1})) == ulp);
   // A unit gap to a needle 1e9 long that all but touches along its length.
   CHECK(distance({{-1e9, 0, 1}, {1e9, 0, 1}}, {{-1e9, 0, 0}, {1e9, 1e-9, 0}}) == 1);
   CHECK(distance({{1e12, 0, 0}}, {{1e12, std::ldexp(1, -60), 0}}) == std::ldexp(1, -60));
 }
 
-void test_random_hulls_in_any_order() {
+void test_distances_in_any_order() {
   Source source(7);
   for (int i = 0; i < 50; ++i) {
     const Points a = source.sphere_points(12);
@@ -64,6 +59,6 @@ void test_random_hulls_in_any_order() {
 
 UNIT(exact_distance) {
   test_features();
-  test_what_float64_cannot_see();
-  test_random_hulls_in_any_order();
+  test_distances_that_float64_cannot_see();
+  test_distances_in_any_order();
 }

@@ -14,7 +14,7 @@ PortalFinding find(const Shape& a, const Pose& pose_a, const Shape& b, const Pos
   return seek_portal(m, m.support_error()).finding;
 }
 
-Pose at(double x, double y, double z) {
+Pose pose_at(double x, double y, double z) {
   Pose pose;
   pose.translation = {x, y, z};
   return pose;
@@ -65,10 +65,10 @@ void test_general_pairs_are_settled() {
 
 void test_curved_shapes() {
   const Shape cylinder = make_cylinder(1, 1), ball = make_ellipsoid({1, 2, 1});
-  CHECK(find(cylinder, {}, cylinder, at(2.01, 0, 0.1)) == PortalFinding::apart);
-  CHECK(find(cylinder, {}, cylinder, at(1.99, 0.1, 0.2)) == PortalFinding::overlaps);
-  CHECK(find(cylinder, {}, ball, at(0.3, 3.01, 0)) == PortalFinding::apart);
-  CHECK(find(cylinder, {}, ball, at(0.3, 2.9, 0.1)) == PortalFinding::overlaps);
+  CHECK(find(cylinder, {}, cylinder, pose_at(2.01, 0, 0.1)) == PortalFinding::apart);
+  CHECK(find(cylinder, {}, cylinder, pose_at(1.99, 0.1, 0.2)) == PortalFinding::overlaps);
+  CHECK(find(cylinder, {}, ball, pose_at(0.3, 3.01, 0)) == PortalFinding::apart);
+  CHECK(find(cylinder, {}, ball, pose_at(0.3, 2.9, 0.1)) == PortalFinding::overlaps);
 }
 
 // Directions grow with the cube of the scale, and no support point may lose them.
@@ -93,14 +93,14 @@ void test_curved_shapes_of_any_size() {
 
 void test_what_touches_or_is_flat_stays_open() {
   const Shape box = make_box({1, 1, 1}), point = make_hull({{0, 0, 0}});
-  CHECK(find(box, {}, box, at(2, 0.3, 0.1)) == PortalFinding::open);
+  CHECK(find(box, {}, box, pose_at(2, 0.3, 0.1)) == PortalFinding::open);
   CHECK(find(box, {}, box, {}) == PortalFinding::overlaps);
   CHECK(find(point, {}, point, {}) == PortalFinding::open);
-  CHECK(find(point, {}, point, at(1, 0, 0)) == PortalFinding::apart);
+  CHECK(find(point, {}, point, pose_at(1, 0, 0)) == PortalFinding::apart);
   // Too small for squares of areas: nothing is concluded from what has underflowed.
   const Shape speck = make_box({1e-45, 1e-45, 1e-45});
-  CHECK(find(speck, {}, speck, at(1.99e-45, 0.1e-45, 0.2e-45)) != PortalFinding::apart);
-  CHECK(find(speck, {}, speck, at(2.01e-45, 0.1e-45, 0.2e-45)) != PortalFinding::overlaps);
+  CHECK(find(speck, {}, speck, pose_at(1.99e-45, 0.1e-45, 0.2e-45)) != PortalFinding::apart);
+  CHECK(find(speck, {}, speck, pose_at(2.01e-45, 0.1e-45, 0.2e-45)) != PortalFinding::overlaps);
 }
 
 }  // namespace

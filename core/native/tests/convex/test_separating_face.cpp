@@ -14,7 +14,7 @@ std::optional<Outcome> by_face(const Shape& a, const Shape& b, Vec3 axis) {
   return outcome_by_face(WorldHull(a, {}), WorldHull(b, {}), axis);
 }
 
-std::vector<Vec3> random_points(std::mt19937& engine, int most, Vec3 shift) {
+std::vector<Vec3> some_points(std::mt19937& engine, int most, Vec3 shift) {
   std::uniform_int_distribution<int> coordinate(0, 3), count(1, most);
   std::vector<Vec3> points(count(engine));
   for (Vec3& p : points) {
@@ -29,7 +29,7 @@ void test_against_the_exact_stage() {
   int touching = 0, separated = 0;
   for (int round = 0; round < 6000; ++round) {
     const Vec3 offset{double(shift(engine)), double(shift(engine)), double(shift(engine))};
-    const std::vector<Vec3> points_a = random_points(engine, 12, {0, 0, 0}), points_b = random_points(engine, 12, offset);
+    const std::vector<Vec3> points_a = some_points(engine, 12, {0, 0, 0}), points_b = some_points(engine, 12, offset);
     const Shape a = make_hull(points_a), b = make_hull(points_b);
     const int depth = compare_depth(ExactDifference(points_a, points_b), Dyadic());
     const Outcome truth = depth < 0 ? Outcome::separated : depth > 0 ? Outcome::penetrating : Outcome::touching;

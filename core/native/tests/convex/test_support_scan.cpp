@@ -16,7 +16,7 @@ std::uint32_t plain(const std::vector<Vec3>& points, Vec3 d) {
   return best;
 }
 
-void test_random_points() {
+void test_random_scans() {
   testing::Source source(1);
   for (int count = 1; count <= 70; ++count) {
     const std::vector<Vec3> points = source.sphere_points(count);
@@ -39,6 +39,6 @@ void test_ties_take_the_first() {
 }  // namespace
 
 UNIT(support_scan) {
-  test_random_points();
+  test_random_scans();
   test_ties_take_the_first();
 }

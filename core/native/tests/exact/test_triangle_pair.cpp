@@ -14,36 +14,36 @@ using namespace satcheck;
 namespace {
 
 using Integer = long long;
-struct Lattice {
+struct LatticePoint {
   Integer x, y, z;
 };
-Lattice operator-(Lattice a, Lattice b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Integer dot(Lattice a, Lattice b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Lattice cross(Lattice a, Lattice b) {
+LatticePoint operator-(LatticePoint a, LatticePoint b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Integer dot(LatticePoint a, LatticePoint b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+LatticePoint cross(LatticePoint a, LatticePoint b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-using Sheet = std::array<Lattice, 3>;
+using Sheet = std::array<LatticePoint, 3>;
 
 // Truth by linear programming over the rationals, without any orientation argument: the triangles
 // meet when 0 lies in the hull of the nine corner differences, i.e. when no direction separates it
 // strictly. For hulls of few integer points it suffices to try the normals of all pairs of
 // differences, the differences themselves and the lines through two of them.
-bool strictly_separable(const std::vector<Lattice>& points) {
-  std::vector<Lattice> directions;
-  for (const Lattice& p : points) directions.push_back(p);
+bool strictly_separable(const std::vector<LatticePoint>& points) {
+  std::vector<LatticePoint> directions;
+  for (const LatticePoint& p : points) directions.push_back(p);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = 0; j < points.size(); ++j) {
-      const Lattice e = points[j] - points[i];
-      const Lattice n = cross(points[i], points[j]);
+      const LatticePoint e = points[j] - points[i];
+      const LatticePoint n = cross(points[i], points[j]);
       directions.push_back(cross(e, n));  // the point of the line i j nearest to the origin
       for (std::size_t k = 0; k < points.size(); ++k) {
         directions.push_back(cross(e, points[k] - points[i]));
       }
     }
   }
-  for (const Lattice& d : directions) {
+  for (const LatticePoint& d : directions) {
     for (const Integer sign : {1, -1}) {
-      const bool separates = std::all_of(points.begin(), points.end(), [&](const Lattice& p) { return sign * dot(d, p) > 0; });
+      const bool separates = std::all_of(points.begin(), points.end(), [&](const LatticePoint& p) { return sign * dot(d, p) > 0; });
       if (separates) return true;
     }
   }
@@ -51,9 +51,9 @@ bool strictly_separable(const std::vector<Lattice>& points) {
 }
 
 bool truth_meets(const Sheet& a, const Sheet& b) {
-  std::vector<Lattice> differences;
-  for (const Lattice& p : a)
-    for (const Lattice& q : b) differences.push_back(p - q);
+  std::vector<LatticePoint> differences;
+  for (const LatticePoint& p : a)
+    for (const LatticePoint& q : b) differences.push_back(p - q);
   return !strictly_separable(differences);
 }
 
@@ -70,13 +70,13 @@ void lattice_triangles() {
   for (int round = 0; round < testing::rounds(30000); ++round) {
     Sheet a, b;
     for (Sheet* t : {&a, &b})
-      for (Lattice& p : *t) p = {coordinate(generator), coordinate(generator), coordinate(generator)};
+      for (LatticePoint& p : *t) p = {coordinate(generator), coordinate(generator), coordinate(generator)};
     const bool meets = truth_meets(a, b);
     const TriangleContact contact = classify(to_corners(a, 0.1), to_corners(b, 0.1));
     // 0.1 * {0, 1, 2} is a lattice in float64 too: 0.2 == 2 * 0.1.
     if (!CHECK((contact != TriangleContact::disjoint) == meets)) {
       for (const Sheet* t : {&a, &b})
-        for (const Lattice& p : *t) std::fprintf(stderr, "%lld %lld %lld  ", p.x, p.y, p.z);
+        for (const LatticePoint& p : *t) std::fprintf(stderr, "%lld %lld %lld  ", p.x, p.y, p.z);
       std::fprintf(stderr, "contact %d truth %d\n", static_cast<int>(contact), meets);
     }
     CHECK(classify(to_corners(b, 0.1), to_corners(a, 0.1)) == contact);
@@ -93,7 +93,7 @@ void lattice_triangles() {
     }
     const Vec3 p = crossing_point(to_corners(a, 1), to_corners(b, 1));
     for (const Sheet* t : {&a, &b}) {
-      const Lattice n = cross((*t)[1] - (*t)[0], (*t)[2] - (*t)[0]);
+      const LatticePoint n = cross((*t)[1] - (*t)[0], (*t)[2] - (*t)[0]);
       const Vec3 normal{n.x * 1.0, n.y * 1.0, n.z * 1.0};
       CHECK(std::fabs(dot(normal, p - to_corners(*t, 1)[0])) < 1e-14 * norm(normal));
     }

@@ -20,7 +20,7 @@ void check_reach(const Mesh& surface_of, const Mesh& solid, double depth) {
   CHECK(reaches(surface_of, in, depth * (1 + 1e-3)) == false);
 }
 
-void boxes() {
+void reach_of_boxes() {
   const Mesh block = box({0, 0, 0}, {8, 8, 8});
   check_reach(box({-1, 3, 3}, {1, 4, 4}), block, 1);       // a peg, at its end
   check_reach(box({-1, 3.5, 3}, {9, 3.5625, 4}), block, 3.5625);  // a pin, in the middle of its sides
@@ -50,7 +50,7 @@ void too_little_work_is_no_answer() {
 }  // namespace
 
 UNIT(reach) {
-  boxes();
+  reach_of_boxes();
   what_is_outside_reaches_nowhere();
   a_cavity_has_no_depth();
   too_little_work_is_no_answer();

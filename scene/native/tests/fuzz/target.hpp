@@ -22,8 +22,8 @@
 #include "tests/check.hpp"
 
 #define FUZZ_TARGET(name) \
-  static void use(std::string_view data); \
-  UNIT(fuzz_##name) { CHECK(satcheck::scene::run_seeds(use) > 0); } \
-  static void use(std::string_view data)
+  static void use_##name(std::string_view data); \
+  UNIT(fuzz_##name) { CHECK(satcheck::scene::run_seeds(use_##name) > 0); } \
+  static void use_##name(std::string_view data)
 
 #endif
