@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 from msgspec.structs import replace
@@ -10,42 +9,35 @@ from msgspec.structs import replace
 from satcheck.report.bodies import Place
 from satcheck.report.report import Report
 from satcheck.scene import Scene
-from satcheck.scene.errors import Refused
+from satcheck.scene.table import Keys
 
 _TOLD = ("error", "warning", "note")
 
 
 def with_stated_places(report: Report, scene: Scene) -> Report:
-    """scene: that the report is about. Scene files are read again: raises Refused where one
-    is gone by now."""
+    """scene: that the report is about."""
     told = {id_ for f in report.findings if f.severity in _TOLD for id_ in (f.a, f.b)}
     entries = {id_: scene.entries[id_] for id_ in told if id_ in scene.entries}
     if not entries:
         return report
-    numbers: dict[str, list[int]] = {}
+    from satcheck.scene.scene_file.text import is_toml, lines_of
+
+    wanted: dict[tuple[str, str], list[Keys]] = {}
     for entry in entries.values():
         if entry.number is not None:
-            numbers.setdefault(entry.file, []).append(entry.number)
-    lines = {file: _lines(file, of) for file, of in numbers.items()}
+            wanted.setdefault((entry.file, entry.text), []).append(("bodies", entry.number))
+    lines = {
+        (file, text): lines_of(text, keys, toml=is_toml(Path(file)))
+        for (file, text), keys in wanted.items()
+    }
     places = {}
     for id_, entry in entries.items():
-        line = entry.line if entry.number is None else lines[entry.file][entry.number]
+        line = entry.line
+        if entry.number is not None:
+            line = lines[entry.file, entry.text]["bodies", entry.number]
         places[id_] = Place(entry.file, line) if line else None
     bodies = (
         replace(body, stated_at=places[body.id]) if body.id in places else body
         for body in report.bodies
     )
     return replace(report, bodies=tuple(bodies))
-
-
-def _lines(path: str, numbers: Iterable[int]) -> dict[int, int]:
-    """The lines of the bodies with these numbers in a scene file."""
-    from satcheck.scene.scene_file.text import is_toml, lines_of, read_text
-
-    keys = {number: ("bodies", number) for number in numbers}
-    try:
-        lines = lines_of(read_text(path, Path(path)), keys.values(), toml=is_toml(Path(path)))
-        return {number: lines[of] for number, of in keys.items()}
-    except (ValueError, LookupError):
-        message = "the scene file has changed since it was read"
-        raise Refused("bad-scene", message, file=path) from None

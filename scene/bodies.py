@@ -142,11 +142,12 @@ class Unreadable(Struct, frozen=True):
 
 class Entry(Struct, frozen=True):
     """Where an input states a body. file: the scene file or the robot, as given. number: of the
-    body in the scene file, from 0; None: it is at the line."""
+    body in the scene file, from 0; None: it is at the line. text: of the scene file."""
 
     file: str
     number: int | None = None
     line: int | None = None
+    text: str = ""
 
 
 class Accepted(Struct, frozen=True):

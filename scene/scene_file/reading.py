@@ -115,7 +115,7 @@ def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile])
     lines = text.lines([("rules", k) for k in range(count)])
 
     def body(table: Any, number: int) -> Item:
-        entry = Entry(path, number=number)
+        entry = Entry(path, number=number, text=text.text)
         return _body(converted(table, document.Body, units), entry, places, ids)
 
     def rule(table: Any, number: int) -> Rule | BodyRule:

@@ -66,7 +66,7 @@ def read_scene(text: SceneText) -> SceneFile:
             transform=None if own.transform is None else affine(own.transform, "transform"),
             groups=() if own.group is None else (own.group,),
             static=own.static,
-            entry=Entry(text.path, number=number),
+            entry=Entry(text.path, number=number, text=text.text),
         )
 
     def rule(pair: Any, number: int) -> Rule | None:

@@ -55,21 +55,22 @@ _TOML = re.compile(
 class SceneText:
     """A scene file that is well-formed, and what is wrong in it.
 
-    path: for messages. location: where it lies. document: its values. Raises Refused.
+    path: for messages. location: where it lies. text: as it stands there. document: its values.
+    Raises Refused.
     """
 
     def __init__(self, path: str, location: Path, most: Most = OWN_FILE) -> None:
         self.path = path
         self.location = location
         self.is_toml = is_toml(location)
-        self._text = read_text(path, location, most)
+        self.text = read_text(path, location, most)
         self._wrong: list[Wrong] = []
         if self.is_toml:
-            self.document: Any = read_toml(path, self._text)
+            self.document: Any = read_toml(path, self.text)
             return
-        self.document, has_repeated_keys = _json(path, self._text)
+        self.document, has_repeated_keys = _json(path, self.text)
         if has_repeated_keys:
-            keys = repeated_keys(self._text)
+            keys = repeated_keys(self.text)
             self._wrong = [Wrong("a second value for this key", *each) for each in keys]
 
     @property
@@ -80,12 +81,12 @@ class SceneText:
         """The line of each of these keys, or of the innermost table or list around it."""
         if not wanted:
             return []
-        lines = lines_of(self._text, wanted, toml=self.is_toml)
+        lines = lines_of(self.text, wanted, toml=self.is_toml)
         return [innermost(lines, keys) for keys in wanted]
 
     def nulls(self) -> Iterator[Keys]:
         """The keys whose value is null, which is no value of a scene file."""
-        waiting: list[tuple[Keys, Any]] = [((), self.document)] if "null" in self._text else []
+        waiting: list[tuple[Keys, Any]] = [((), self.document)] if "null" in self.text else []
         while waiting:
             keys, value = waiting.pop()
             if value is None:
