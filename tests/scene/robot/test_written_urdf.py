@@ -33,10 +33,10 @@ def rewritten(folder: Path, text: str, encoding: str = "utf-8", back: str = "") 
 def test_shapes_in_one_line_keep_their_order(tmp_path: Path) -> None:
     assert rewritten(tmp_path, TEXT.format(more="<!-- ü -->")).decode() == (
         '<?xml version="1.0" encoding="utf-8"?>\n<robot name="r">\n<link name="a">'
-        '<collision name="x-1"><geometry><mesh filename="p/1.obj"/></geometry></collision>'
-        '<collision><geometry><mesh filename="p/2.obj"/></geometry></collision>'
-        '<collision><geometry><mesh filename="p/ü&amp;.obj"/></geometry></collision>'
-        "<!-- ü --></link></robot>"
+        '<collision name="x-1"><geometry><mesh filename="p/1.obj" /></geometry></collision>'
+        '<collision><geometry><mesh filename="p/2.obj" /></geometry></collision>'
+        '<collision><geometry><mesh filename="p/ü&amp;.obj" /></geometry></collision>'
+        "<!-- ü --></link></robot>\n"
     )
 
 
@@ -50,17 +50,18 @@ def test_other_encodings_and_undeclared_prefixes_are_kept(tmp_path: Path) -> Non
     expected = rewritten(tmp_path, text)
     declared = f'<?xml version="1.0" encoding="utf-16"?>{text}'
     assert rewritten(tmp_path, declared, "utf-16") == expected
-    assert b'<gazebo:odd a:b="&amp;&gt;"/>' in expected
+    assert b'<gazebo:odd a:b="&amp;&gt;" />' in expected
 
 
 def test_what_stands_on_lines_of_its_own_stays_so(tmp_path: Path) -> None:
     text = TEXT.replace("<collision", "\n  <collision").replace("</link>", "\n</link>")
     assert rewritten(tmp_path, text.format(more="")).decode().split("\n")[2:] == [
         '<link name="a">',
-        '  <collision name="x-1"><geometry><mesh filename="p/1.obj"/></geometry></collision>',
-        '  <collision><geometry><mesh filename="p/2.obj"/></geometry></collision>',
-        '  <collision><geometry><mesh filename="p/ü&amp;.obj"/></geometry></collision>',
+        '  <collision name="x-1"><geometry><mesh filename="p/1.obj" /></geometry></collision>',
+        '  <collision><geometry><mesh filename="p/2.obj" /></geometry></collision>',
+        '  <collision><geometry><mesh filename="p/ü&amp;.obj" /></geometry></collision>',
         "</link></robot>",
+        "",
     ]
 
 
