@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from itertools import chain
+from itertools import accumulate, chain
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +28,7 @@ from satcheck.audit.checked_pairs import Progress
 from satcheck.audit.openings import SMALLEST, largest_opening
 from satcheck.audit.settings import Settings
 from satcheck.audit.summary import issues_of_input, tool
-from satcheck.audit.words import counted, is_wrong, worst_first
+from satcheck.audit.words import counted, is_wrong, number, with_unit, worst_first
 from satcheck.core import Mesh, Surface
 from satcheck.core.errors import SatcheckError
 from satcheck.core.mesh_arrays import joined
@@ -48,6 +48,7 @@ from satcheck.report.report import NOTHING_TO_CHECK, Issue, Report
 from satcheck.report.values import Verdict
 from satcheck.report.verdict import summarise
 from satcheck.scene import Scene
+from satcheck.scene.units import unit_of
 
 # The width of an interval: as a share of its lower end, or of the size of the link.
 RATIO = 0.01
@@ -85,12 +86,12 @@ def compare(
         scene.require_one_unit()
         if len(scene.robots) > 1:
             raise SatcheckError("bad-argument", "colliders compares the links of one robot")
-    grouped, parts = _grouped(place(visual, Settings()), place(collision, Settings())), []
-    steps = min(STEPS, STEPS_OF_ALL // (SEARCHES * max(len(grouped), 1)))
-    for number, (name, kinds) in enumerate(grouped.items()):
+    groups, parts = grouped(place(visual, Settings()), place(collision, Settings())), []
+    steps = min(STEPS, STEPS_OF_ALL // (SEARCHES * max(len(groups), 1)))
+    for k, (name, kinds) in enumerate(groups.items()):
         if progress is not None:
-            progress(number, len(grouped))
-        with step(f"comparing {name}, {number + 1} of {len(grouped)}"):
+            progress(k, len(groups))
+        with step(f"comparing {name}, {k + 1} of {len(groups)}"):
             parts.append(_part(name, kinds, limits, steps))
     checked = _with_no_pairs_needed(check(collision, settings, least=0))
     told = {(issue.code, issue.file, issue.message) for issue in checked.issues}
@@ -142,45 +143,48 @@ def _message(report: CollidersReport) -> str:
     links, pairs = counted(len(report.parts), "link"), counted(len(report.overlaps), "pair")
     said = f"{wrong} of {links} and {pairs} of colliders fail or are undecided"
     if not (wrong or report.overlaps):
-        limited = report.settings.max_out is not None or report.settings.max_short is not None
-        said = f"{'all links keep the limits, and ' if limited else ''}no colliders overlap"
+        stated = {"--max-out": report.settings.max_out, "--max-short": report.settings.max_short}
+        kept = [
+            f"{name} {with_unit(number(most), unit_of(report.units))}"
+            for name, most in stated.items()
+            if most is not None
+        ]
+        limits = f"all links keep {' and '.join(kept)}, and " if kept else ""
+        said = f"{limits}no colliders overlap"
     if bare := sum(not _has_both(part) for part in report.parts):
         said += f"; {counted(bare, 'link has', 'links have')} only one kind of geometry"
     return f"{report.verdict.upper()}: {said}."
 
 
-def _grouped(drawn: PlacedBodies, solid: PlacedBodies) -> dict[str, _Kinds]:
-    """What moves together, by name: the bodies of a link. Others are put together by their paths:
-    those below a node that has both kinds below, and is a body or has no such node below."""
+def grouped(drawn: PlacedBodies, solid: PlacedBodies) -> dict[str, _Kinds]:
+    """What moves together, by name: the bodies of a link. Others are put together by their paths,
+    from the innermost node outward: what is left at and below a node that is a body, or has no such
+    group below, if it has both kinds. What is left at the end stays alone."""
     grouped: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
-    loose: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
-    nodes: tuple[set[str], set[str]] = set(), set()
+    left: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
     for kind, bodies in enumerate((drawn, solid)):
-        for member in chain(bodies.placed.values(), bodies.unusable.values()):
-            if (link := member.body.link) is not None:
-                grouped[link][kind].append(member)
-                continue
-            loose[member.id][kind].append(member)
-            nodes[kind].update(_nodes(member.id))
-    shared = nodes[0] & nodes[1]
-    inner = {node.rpartition("/")[0] for node in shared}
-    for path, kinds in loose.items():
-        around = (node for node in _nodes(path) if node in shared)
-        home = next((node for node in around if node in loose or node not in inner), path)
+        for index in range(len(bodies.ids)):
+            member = bodies.placed.get(index) or bodies.unusable[index]
+            link = member.body.link
+            (left[member.id] if link is None else grouped[link])[kind].append(member)
+    paths, around = set(left), set[str]()  # nodes that are bodies, and that a group lies below
+    nodes = {node for path in paths for node in accumulate(path.split("/"), "{}/{}".format)}
+    for node in sorted(nodes, key=lambda node: (-node.count("/"), node)):
+        kinds, parent = left.pop(node, _Kinds([], [])), node.rpartition("/")[0]
+        is_group = all(kinds) and (node in paths or node not in around)
+        if is_group or node in around:
+            around.add(parent)
         for kind, members in enumerate(kinds):
-            grouped[home][kind].extend(members)
+            (grouped[node] if is_group else left[parent])[kind].extend(members)
+    for kind, members in enumerate(left[""]):
+        for member in members:
+            grouped[member.id][kind].append(member)
     return grouped
-
-
-def _nodes(path: str) -> list[str]:
-    """The path, and those of the nodes that it lies in, the innermost first."""
-    words = path.split("/")
-    return ["/".join(words[:count]) for count in range(len(words), 0, -1)]
 
 
 def _rank(part: ColliderPart) -> tuple[float, ...]:
     reaches = [reach.bounds[1] for reach in (part.out, part.short) if reach is not None]
-    return VERDICTS.index(part.verdict or "pass"), -max(reaches, default=0.0)
+    return VERDICTS.index(part.verdict or "pass"), -max(reaches, default=0.0), not reaches
 
 
 def _part(name: str, kinds: _Kinds, limits: ColliderLimits, steps: int) -> ColliderPart:
@@ -225,19 +229,21 @@ def _with_any_fill(
 
 def _judged(part: ColliderPart, limits: ColliderLimits) -> ColliderPart:
     """Only a proven bound decides."""
-    verdict: Verdict = "pass"
-    reason = None
+    beyond, reason = [], None
     if part.out is None or part.short is None:
         reason = _NO_END
+    verdict: Verdict = "pass"
     for rule, reach, limit in part.reaches(limits):
         if limit is None or (reach is not None and reach.bounds[1] <= limit):
             continue
-        far = f"it {OF_COLLIDERS[rule]} by more than the limit"
         if reach is not None and reach.bounds[0] > limit:
-            return replace(part, verdict="fail", reason=far)
+            beyond.append(OF_COLLIDERS[rule])
+            continue
         verdict = "incomplete"
         why = _NO_END if reach is None else reach.reason or "the limit is within the bounds"
-        reason = f"it is open whether {far}: {why}"
+        reason = f"it is open whether it {OF_COLLIDERS[rule]} by more than the limit: {why}"
+    if beyond:
+        verdict, reason = "fail", f"it {' and '.join(beyond)} by more than the limit"
     return replace(part, verdict=verdict, reason=reason)
 
 

@@ -50,10 +50,11 @@ def write_urdf(
     names: dict[tuple[bytes, bytes], str] = {}
     contents: dict[str, bytes] = {}
     for name, mesh in chain.from_iterable(parts.values()):
-        plain = _UNSAFE.sub("_", name)
-        plain = f"{plain}.{len(names)}" if f"{plain}.obj" in contents else plain
-        if (file := names.setdefault(mesh.to_bytes(), f"{plain}.obj")) not in contents:
-            contents[file] = written_meshes.written([(plain, mesh)], ".obj", None)
+        if (key := mesh.to_bytes()) not in names:
+            plain = _UNSAFE.sub("_", name)
+            plain = f"{plain}.{len(names)}" if f"{plain}.obj" in contents else plain
+            names[key] = f"{plain}.obj"
+            contents[names[key]] = written_meshes.written([(plain, mesh)], ".obj", None)
     path = robot.robot.file
     back = os.path.relpath(Path(path).absolute().parent, output.absolute().parent)
     document = urdf_of_parts(

@@ -228,6 +228,7 @@ def meet(a: Exact, b: Exact, contacts: Contacts, across: int | None = None) -> b
     for s, t in contacts:
         for p, q in product(of_a(s), of_b(t)):
             shared = common(p, q)
+            # A point at an end does not count: the middle of what is shared is at none.
             if shared and (
                 across is None or abs(sum(x[across] for x in shared)) != end * len(shared)
             ):

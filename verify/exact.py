@@ -218,6 +218,7 @@ def sign_of(c: Fraction, less: Sequence[Fraction] = (), more: Sequence[Fraction]
     count.subtract(less)
     for bits in BITS:
         roots = [(root(p, bits), n) for p, n in count.items()]
+        # The lower end of a root that is added, the upper one of a root that is taken away.
         low = c + sum(n * ends[n < 0] for ends, n in roots)
         high = c + sum(n * ends[n > 0] for ends, n in roots)
         if low > 0 or high < 0 or low == high == 0:

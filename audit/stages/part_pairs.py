@@ -132,22 +132,18 @@ def _rank(pair: PartPair) -> tuple[bool, float]:
 
 def _disagreement(draft: Draft, found: PartPairs, a: Covering, b: Covering) -> str | None:
     """Return how the parts contradict what is proven of the bodies."""
+    ids = draft.pair.a.id, draft.pair.b.id
     is_settled = not (found.overlapping or found.undecided or found.untested)
     if is_settled and draft.relation in OVERLAPS and (draft.exact_proven or draft.overlaps):
         if found.touching:  # by the tolerance, which the overlap of the bodies exceeds
             return "parts only touch where the bodies overlap"
-        said, why = "no parts overlap where the bodies do", "{} sticks out of its parts"
-        errors = a.missing, b.missing
-    elif found.overlapping and draft.exact_proven and draft.exact not in OVERLAPS:
+        errors = zip(ids, (a.missing, b.missing), strict=True)
+        why = [f"{id_} sticks out of its parts by up to {at_most(e)}" for id_, e in errors if e]
+        return "; ".join(["no parts overlap where the bodies do", *why])
+    if found.overlapping and draft.exact_proven and draft.exact not in OVERLAPS:
+        errors = zip(ids, (a.outside, b.outside), strict=True)
+        why = [f"parts of {id_} stick out of it by up to {at_most(e)}" for id_, e in errors if e]
         where = "touch" if draft.exact == "touching" else "are apart"
         deepest = at_most(found.pairs[0].depth or 0.0)
-        said, why = (
-            f"parts overlap by up to {deepest} where the bodies {where}",
-            "parts of {} stick out of it",
-        )
-        errors = a.outside, b.outside
-    else:
-        return None
-    ids = draft.pair.a.id, draft.pair.b.id
-    named = zip(ids, errors, strict=True)
-    return "; ".join([said, *(f"{why.format(id_)} by up to {at_most(e)}" for id_, e in named if e)])
+        return "; ".join([f"parts overlap by up to {deepest} where the bodies {where}", *why])
+    return None

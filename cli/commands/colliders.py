@@ -19,7 +19,7 @@ from satcheck.cli.formats.colliders import as_report, render
 from satcheck.cli.formats.registry import ALL, kind_of, pieces
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.option import in_units_of, length, settings_of
-from satcheck.cli.output import Document, Page, tell_issues
+from satcheck.cli.output import Document, Page, harmless, talk, tell_issues
 from satcheck.cli.progress import Bar
 from satcheck.core.errors import SatcheckError
 from satcheck.report.colliders import ColliderLimits, CollidersReport
@@ -30,7 +30,7 @@ from satcheck.scene.files.readers import GEOMETRY, GeometryKind
 from satcheck.scene.units import Length
 
 FORMATS = FormatChoice(ALL)
-_BOTH = "a robot, a USD or a glTF file, which have visual and collision geometry"
+_BOTH = "a robot, a USD or a glTF file, which has visual and collision geometry"
 
 
 @click.command("colliders", cls=Command, context_settings=HELP_NAMES)
@@ -75,8 +75,8 @@ def command(
     wrong usage, an unreadable input, or an internal error; 3, that could not be decided.
     """
     inputs, targets = Inputs.taken_from(options), targets_of(form, outputs, FORMATS)
-    if any(name == "csv" for name, _ in targets):
-        raise click.UsageError("CSV has rows for pairs; JSON has the figures of links")
+    if any(name in ("csv", "bcf") for name, _ in targets):
+        raise click.UsageError("CSV and BCF are about pairs; JSON has the figures of links")
     if not inputs.paths:
         raise click.UsageError(f"give {_BOTH}")
     refuse_early(inputs, outputs)
@@ -96,6 +96,9 @@ def command(
     for name, output in targets:
         shown = partial(_rendered, name, report, checked, scenes, top)
         document.deliver(shown, output, utf8=name != "table")
+    files = [str(output) for _, output in targets if output is not None]
+    if len(files) == len(targets):
+        talk(harmless(f"{report.message} Report: {', '.join(files)}"))
     return exit_codes.for_verdict(report.verdict, report.issues)
 
 
@@ -123,11 +126,14 @@ def _loaded(inputs: Inputs, kind: GeometryKind) -> Scene:
     try:
         return replace(inputs, geometry=kind).load(inputs.paths, must_count=[GEOMETRY.name])
     except SatcheckError as error:
-        if error.code == "unused-option":  # of --geometry, which nobody has typed
-            raise SatcheckError(
-                "unused-option", f"only one kind of geometry: give {_BOTH}"
-            ) from None
-        raise
+        if error.code != "unused-option":
+            raise
+    scene = inputs.load(inputs.paths)
+    for issue in scene.issues if not scene.bodies else ():
+        if issue.severity == "error":
+            raise SatcheckError(issue.code, issue.message, file=issue.file)
+    # Nobody has typed --geometry.
+    raise SatcheckError("unused-option", f"only one kind of geometry: give {_BOTH}")
 
 
 def _limit(given: Length | None, scene: Scene, name: str) -> float | None:

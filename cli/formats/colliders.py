@@ -93,7 +93,7 @@ def as_report(
 ) -> tuple[Report, Scene]:
     """Return the check of the colliders with a finding for each figure about a link, and the scene
     of the colliders and of what is drawn."""
-    drawn = [replace(body, id=_drawn(body.id), name=_drawn(body.id)) for body in visual.in_order()]
+    drawn = [replace(body, id=_drawn(body.id), name=_drawn(body.id)) for body in visual.bodies]
     order = tuple(body.id for body in drawn)
     placed = place(replace(visual, bodies=tuple(drawn), order=order), Settings())
     findings, issues = [*checked.findings], [*checked.issues]
@@ -101,9 +101,8 @@ def as_report(
         own = list(_findings(part, report))
         findings += own
         if part.verdict in ("fail", "incomplete") and all(f.severity == "note" for f in own):
-            level = "error" if part.verdict == "fail" else "warning"
-            why = f"{part.name}: {part.reason}"
-            issues.append(Issue("not-measured", level, None, None, why))
+            why = Issue("not-measured", "warning", None, None, f"{part.name}: {part.reason}")
+            issues.append(replace(why, severity="error") if part.verdict == "fail" else why)
     listed = replace(
         checked,
         bodies=(*checked.bodies, *body_reports(placed)),

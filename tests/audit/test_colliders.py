@@ -8,14 +8,15 @@ import math
 import struct
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 import trimesh
 
 from satcheck.audit import Settings
-from satcheck.audit.colliders import compare
+from satcheck.audit.colliders import compare, grouped
 from satcheck.core import Mesh, Surface, deviation
 from satcheck.report.colliders import ColliderLimits, ColliderPart, CollidersReport, Reach
 from satcheck.scene import Unreadable, load_scene
@@ -550,3 +551,39 @@ def test_samples_never_lie_beyond_the_bounds() -> None:
     assert narrow
     assert outside(drawn, points).max() <= high <= 1.0101 * low
     assert outside(drawn, np.array([point]))[0] >= low - 1e-9
+
+
+def bodies(*paths: str) -> Any:
+    """Placed, without links."""
+    placed = {
+        number: SimpleNamespace(id=path, body=SimpleNamespace(link=None))
+        for number, path in enumerate(paths)
+    }
+    return SimpleNamespace(ids=paths, placed=placed, unusable={})
+
+
+@pytest.mark.parametrize(
+    ("drawn", "solid", "groups"),
+    [
+        ("a/v", "a/c", {"a": ("a/v", "a/c")}),
+        ("a/v b/v", "b/c", {"b": ("b/v", "b/c"), "a/v": ("a/v", "")}),
+        # A body takes what is left below it, after the group that lies deeper.
+        ("a a/b/b", "a/b a/b/b", {"a/b/b": ("a/b/b", "a/b/b"), "a": ("a", "a/b")}),
+        ("a a/p a/q", "a/q", {"a/q": ("a/q", "a/q"), "a": ("a", ""), "a/p": ("a/p", "")}),
+        # A node that is no body takes nothing from beside a group.
+        (
+            "w/a/v w/v",
+            "w/a/c w/c",
+            {"w/a": ("w/a/v", "w/a/c"), "w/v": ("w/v", ""), "w/c": ("", "w/c")},
+        ),
+    ],
+)
+def test_bodies_without_links_are_grouped_by_nodes(
+    drawn: str, solid: str, groups: dict[str, tuple[str, str]]
+) -> None:
+    found = grouped(bodies(*drawn.split()), bodies(*solid.split()))
+    assert groups == {
+        name: tuple(" ".join(member.id for member in own) for own in kinds)
+        for name, kinds in found.items()
+        if any(kinds)
+    }

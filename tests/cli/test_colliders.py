@@ -59,7 +59,8 @@ def test_every_format_says_where(robot: str, tmp_path: Path) -> None:
     assert (result["ruleId"], result["level"]) == ("collider-out", "error")
     assert "can: sticks out by 0.414" in result["message"]["text"]
     assert all(file.stat().st_size > 0 for file in files)
-    assert satcheck("colliders", robot, "--format", "csv").code == 2
+    for form in ("csv", "bcf"):
+        assert satcheck("colliders", robot, "--format", form).code == 2
 
 
 def test_an_unreadable_mesh_is_an_error_and_the_rest_is_answered(robot: str) -> None:
@@ -73,6 +74,23 @@ def test_an_unreadable_mesh_is_an_error_and_the_rest_is_answered(robot: str) -> 
     assert reasons["can"] is None
     assert "cannot be used" in reasons["lost"]
     assert "gone.obj" in ran.err
+    sarif = path.parent / "lost.sarif"
+    ran = satcheck("colliders", robot, "-o", str(sarif))
+    assert (ran.code, "lost: " in sarif.read_text()) == (2, True)
+    assert ran.err.splitlines()[-1].startswith("FAIL: 1 of 2 links")
+
+
+def test_both_causes_are_told(robot: str) -> None:
+    path = Path(robot)
+    path.write_text(path.read_text().replace(BOX, 'box size="1 1 9"'))
+    ran = satcheck("colliders", robot, "--max-out", "1", "--max-short", "0.1")
+    assert ran.code == 1
+    assert "sticks out and falls short by more than the limit" in " ".join(ran.out.split())
+
+
+def test_a_file_that_is_not_there_is_named() -> None:
+    ran = satcheck("colliders", "gone.urd", "--max-out", "5cm")
+    assert (ran.code, "gone.urd: no such file" in ran.err) == (2, True)
 
 
 def test_a_file_without_both_geometries_is_refused() -> None:
@@ -110,7 +128,7 @@ def test_colliders_of_one_link_need_no_pair_to_check(robot: str) -> None:
     ran = satcheck("colliders", robot, "--max-out", "42cm")
     assert ran.code == 0, ran.out
     assert ran.out.splitlines()[-1] == (
-        "PASS: all links keep the limits, and no colliders overlap."
+        "PASS: all links keep --max-out 0.42 m, and no colliders overlap."
     )
 
 

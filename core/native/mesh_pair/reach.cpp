@@ -273,7 +273,7 @@ class Inside {
 Deviation deviation(const Mesh& surface_of, const std::vector<const Surface*>& solids, double tolerance, double ratio, Budget& budget) {
   if (!(tolerance > 0)) throw std::invalid_argument("the tolerance must be positive");
   bool empty = surface_of.triangles.empty() || solids.empty();
-  for (const Surface* each : solids) empty = empty || each->mesh.triangles.empty();
+  for (const Surface* each : solids) empty = empty || each == nullptr || each->mesh.triangles.empty();
   if (empty) throw std::invalid_argument("the deviation of an empty mesh is not defined");
   return Outside(members_of(solids), tolerance, ratio, budget).run(surface_of);
 }

@@ -53,6 +53,14 @@ def test_other_encodings_and_undeclared_prefixes_are_kept(tmp_path: Path) -> Non
     assert b'<gazebo:odd a:b="&amp;&gt;" />' in expected
 
 
+def test_characters_that_a_reader_would_change_stay_references(tmp_path: Path) -> None:
+    head = "<!-- licence -->\n"
+    text = head + TEXT.format(more="").replace('name="r"', 'name="a&#10;b&#9;c"')
+    made = rewritten(tmp_path, text)
+    assert b'name="a&#10;b&#09;c"' in made
+    assert head.encode() in made
+
+
 def test_what_stands_on_lines_of_its_own_stays_so(tmp_path: Path) -> None:
     text = TEXT.replace("<collision", "\n  <collision").replace("</link>", "\n</link>")
     assert rewritten(tmp_path, text.format(more="")).decode().split("\n")[2:] == [
