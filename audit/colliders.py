@@ -160,13 +160,13 @@ def grouped(drawn: PlacedBodies, solid: PlacedBodies) -> dict[str, _Kinds]:
     """What moves together, by name: the bodies of a link. Others are put together by their paths,
     from the innermost node outward: what is left at and below a node that is a body, or has no such
     group below, if it has both kinds. What is left at the end stays alone."""
-    grouped: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
+    groups: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
     left: defaultdict[str, _Kinds] = defaultdict(lambda: _Kinds([], []))
     for kind, bodies in enumerate((drawn, solid)):
         for index in range(len(bodies.ids)):
             member = bodies.placed.get(index) or bodies.unusable[index]
             link = member.body.link
-            (left[member.id] if link is None else grouped[link])[kind].append(member)
+            (left[member.id] if link is None else groups[link])[kind].append(member)
     paths, around = set(left), set[str]()  # nodes that are bodies, and that a group lies below
     nodes = {node for path in paths for node in accumulate(path.split("/"), "{}/{}".format)}
     for node in sorted(nodes, key=lambda node: (-node.count("/"), node)):
@@ -175,11 +175,11 @@ def grouped(drawn: PlacedBodies, solid: PlacedBodies) -> dict[str, _Kinds]:
         if is_group or node in around:
             around.add(parent)
         for kind, members in enumerate(kinds):
-            (grouped[node] if is_group else left[parent])[kind].extend(members)
+            (groups[node] if is_group else left[parent])[kind].extend(members)
     for kind, members in enumerate(left[""]):
         for member in members:
-            grouped[member.id][kind].append(member)
-    return grouped
+            groups[member.id][kind].append(member)
+    return groups
 
 
 def _rank(part: ColliderPart) -> tuple[float, ...]:

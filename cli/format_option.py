@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -36,16 +36,21 @@ class Target(NamedTuple):
 
 class FormatChoice(click.Choice[str]):
     """A name of a format of these kinds, also one that another package registers. also: further
-    formats, and what the command means by a name."""
+    formats, and what the command means by a name. without: formats that do not fit the command."""
 
-    def __init__(self, kinds: tuple[Kind, ...], also: Mapping[str, Format] = {}) -> None:
-        self._kinds = kinds
-        self._also = also
+    def __init__(
+        self,
+        kinds: tuple[Kind, ...],
+        also: Mapping[str, Format] = {},
+        without: Collection[str] = (),
+    ) -> None:
+        self._kinds, self._also, self._without = kinds, also, without
         super().__init__([*self.known()])
 
     def known(self) -> dict[str, Format]:
         """Return the formats that are registered by now, by name."""
-        return {**formats(self._kinds), **self._also}
+        known = {**formats(self._kinds), **self._also}
+        return {name: each for name, each in known.items() if name not in self._without}
 
     def ending_in(self, ending: str) -> Format | None:
         """Return the format of files whose names end so; None: there is none."""
@@ -55,7 +60,7 @@ class FormatChoice(click.Choice[str]):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         found = format_named(value)
-        if found is not None and found.kind in self._kinds:
+        if found is not None and found.kind in self._kinds and found.name not in self._without:
             return found.name
         if failed := failures("formats", (Format,)):
             self.fail(f"{value!r} is no format that is known{failed}", param, ctx)

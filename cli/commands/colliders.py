@@ -29,7 +29,7 @@ from satcheck.scene import Scene
 from satcheck.scene.files.readers import GEOMETRY, GeometryKind
 from satcheck.scene.units import Length
 
-FORMATS = FormatChoice(ALL)
+FORMATS = FormatChoice(ALL, without=("csv", "bcf"))  # their rows are pairs of bodies
 _BOTH = "a robot, a USD or a glTF file, which has visual and collision geometry"
 
 
@@ -66,17 +66,15 @@ def command(
 ) -> int:
     """Show how faithful the colliders of links are to what is drawn.
 
-    FILE is a robot (with its SRDF), a USD or a glTF file with visual and collision geometry. For
-    each link proven bounds say how far the colliders stick out of what is drawn, and how far they
-    fall short of it, and where; and which openings they close. The colliders are checked against
-    each other at rest.
+    FILE is a robot (a URDF with its SRDF, SDFormat, MJCF), a USD or a glTF file, which has visual
+    and collision geometry. For each link proven bounds say how far the colliders stick out of what
+    is drawn, and how far they fall short of it, and where; and which openings they close. The
+    colliders are checked against each other at rest.
 
     Exit codes: 0, all links keep the limits, and no colliders overlap that may not; 1, some do; 2,
     wrong usage, an unreadable input, or an internal error; 3, that could not be decided.
     """
     inputs, targets = Inputs.taken_from(options), targets_of(form, outputs, FORMATS)
-    if any(name in ("csv", "bcf") for name, _ in targets):
-        raise click.UsageError("CSV and BCF are about pairs; JSON has the figures of links")
     if not inputs.paths:
         raise click.UsageError(f"give {_BOTH}")
     refuse_early(inputs, outputs)

@@ -148,23 +148,34 @@ def command(
     )
     ending = "" if parts_out is None else parts_out.suffix.lower()
     bodies = _Splitter(settings).split_each(in_links(scene) if ending == URDF else scene.bodies)
-    parts = [part for each in bodies for part in _named(*each)]
-    if parts_out is not None and parts:
+    has_parts = any(isinstance(result, Decomposition) for _, result in bodies)
+    if parts_out is not None and has_parts:
         _write(parts_out, bodies, scene, inputs)
-    report = DecompositionReport(
+    report = _report(settings, scene, bodies, parts_out)
+    has_failed = _tell_failures(report)
+    deliver(document, report, form, output, partial(_table, report))
+    if scene.unreadable or not has_parts:
+        return exit_codes.ERROR
+    return exit_codes.INCOMPLETE if has_failed else exit_codes.CLEAN
+
+
+def _report(
+    settings: DecompositionOptions, scene: Scene, bodies: Sequence[_Split], written: Path | None
+) -> DecompositionReport:
+    """written: the file with the parts; None: there is none."""
+    rounding = None
+    if written is not None:
+        parts = [part for each in bodies for part in _named(*each)]
+        rounding = written_meshes.rounding(parts, written.suffix.lower())
+    return DecompositionReport(
         tool=tool(),
         units=scene.units,
         settings=settings,
-        output=None if parts_out is None else parts_out.as_posix(),
-        rounding=written_meshes.rounding(parts, ending) if ending else None,
-        bodies=tuple(_body_report(*each, enclose or None) for each in bodies),
+        output=None if written is None else written.as_posix(),
+        rounding=rounding,
+        bodies=tuple(_body_report(*each, settings.enclose or None) for each in bodies),
         issues=tuple(Issue(*astuple(issue)) for issue in scene.issues),
     )
-    has_failed = _tell_failures(report)
-    deliver(document, report, form, output, partial(_table, report))
-    if scene.unreadable or not parts:
-        return exit_codes.ERROR
-    return exit_codes.INCOMPLETE if has_failed else exit_codes.CLEAN
 
 
 def _tell_failures(report: DecompositionReport) -> bool:

@@ -137,7 +137,7 @@ def _findings(part: ColliderPart, report: CollidersReport) -> Iterator[Finding]:
             severity="note" if most is None or high <= most else "warning" if is_open else "error",
             message=f"{said}.",
             undecided="limit" if is_open else None,
-            relation="separated",
+            relation="indeterminate",
             distance=low,
             witness=Witness(at.point, at.nearest),
             reason=reach.reason,
