@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit import Settings, check
+from satcheck.audit import Settings, check, pair
 from satcheck.audit.motion import worst
 from satcheck.cli.formats import table
 from satcheck.cli.output import Page
@@ -177,9 +177,11 @@ def test_a_gap_at_its_clearance_is_judged_in_motion_as_at_rest(
 
 @pytest.mark.parametrize(("way", "relation"), [(5.0, "penetrating"), (0.5, "indeterminate")])
 def test_what_starts_in_a_doubtful_part_hits_what_is_not_doubtful(
-    tmp_path: Path, way: float, relation: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, way: float, relation: str
 ) -> None:
-    """A box in a table, which is solid or a cavity, of a room that faces inward."""
+    """A box in a table, which is solid or a cavity, of a room that faces inward. The search for
+    the moment takes all its steps: here a fiftieth of them."""
+    monkeypatch.setattr(pair, "STEPS_OF_LONE_SWEEP", pair.STEPS_OF_LONE_SWEEP // 50)
     (points, faces), (corners, sides) = box((-8, -8, -8), (8, 8, 8)), box((-2, -2, -2), (2, 2, 2))
     inward = [face[::-1] for face in faces]
     room = (points + corners, inward + [tuple(k + len(points) for k in side) for side in sides])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
 from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
@@ -20,8 +21,16 @@ from satcheck.report.report import Finding, Report
 from satcheck.scene import Scene, load_scene
 from tests.audit.shapes import Mesh, bracket, moved, open_box, scene_of, unit_box, write
 
-QUICK = Settings(parts=True, depth=False, tolerance=0.0, cache=False)
+QUICK = Settings(parts=True, depth=False, tolerance=0.0)
 SPHERE = {"type": "sphere", "radius": 1.0}
+
+
+@pytest.fixture(autouse=True, scope="module")
+def one_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """CoACD splits each mesh once for all these tests."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SATCHECK_CACHE_DIR", str(tmp_path_factory.mktemp("cache")))
+        yield
 
 
 def only(report: Report) -> Finding:
@@ -57,7 +66,8 @@ def judged_by_triangles(scene: Scene) -> dict[tuple[str, str], str]:
     """The relation of each two parts, as those of meshes; separated ones are left out."""
     split = []
     for body in scene.bodies:
-        meshes = [part.to_mesh() for part in decompose.decompose(body.file.mesh).parts]
+        made = decompose.decompose(body.file.mesh, cache=decompose.user_cache())
+        meshes = [part.to_mesh() for part in made.parts]
         if body.transform is not None:
             meshes = [mesh.transformed(body.transform).convex_hull().to_mesh() for mesh in meshes]
         names = (f"{body.id}#{number}" for number in range(1, len(meshes) + 1))
@@ -231,7 +241,7 @@ def test_a_curved_shape_is_its_own_part(tmp_path):
 
 def test_a_mesh_that_cannot_be_split_leaves_the_verdict(tmp_path):
     scene = scene_of(tmp_path, a=bracket(), b=unit_box(1.5, 3, 1, edge=2.0))
-    report = check(scene, replace(QUICK, part_seconds=1e-3))
+    report = check(scene, replace(QUICK, part_seconds=1e-3, cache=False))
     finding = only(report)
     assert (finding.relation, finding.quality) == ("penetrating", "exact")
     assert report.summary.verdict == "fail"
