@@ -48,7 +48,8 @@ _digests = Digests()
 
 class Wanted(Struct, frozen=True):
     """The wishes for a check beside its answer. kept: the result is for a file that a later run
-    resumes, which has no times. threads: for one check, as the other slots have the other cores."""
+    resumes, which has no times; only such a result has a key. threads: for one check, as the other
+    slots have the other cores."""
 
     kept: bool = True
     threads: int = 1
@@ -148,8 +149,8 @@ def _result(job: Job, terms: Terms) -> _Made:
     inputs = inputs_of(files, partial(_digests.digest, files))
     inputs = inputs if copies is None else copies.inputs(inputs)
     lacking = any(issue.code in _NOT_INSTALLED for issue in checked.report.issues)
-    is_known = files.are_certain() and not lacking
     of_terms = terms.of_limits if job.left_out else terms.digest
+    is_known = terms.wanted.kept and not lacking and files.are_certain()
     key = key_of(world, of_terms, inputs, options.folders) if is_known else None
     line = line_of(result_of(world, checked, inputs, key), timings=not terms.wanted.kept)
     return checked.verdict, line if copies is None else copies.with_urls(line), unused
@@ -181,7 +182,7 @@ def _checked(world: World, options: CheckOptions) -> tuple[Asset, tuple[Issue, .
 def result_of(
     world: World, checked: Asset, inputs: tuple[InputFile, ...] = (), key: str | None = None
 ) -> Result:
-    """key: None: the next run checks the world again."""
+    """key: None: the next run, if there is one, checks the world again."""
     return Result(
         files=world, key=key, verdict=checked.verdict, inputs=inputs, report=checked.report
     )

@@ -61,6 +61,13 @@ def answer(world: World) -> Any:
     return next(line["report"] for line in lines if tuple(line["files"]) == world)
 
 
+def key_in(world: World, wanted: Wanted) -> str | None:
+    terms = text_of((CheckOptions(), Limits(), wanted))
+    line = answer_in(serve(request_of(Job(world), terms)), world).line
+    key: str | None = json.loads(line)["key"]
+    return key
+
+
 def scene(name: str, *meshes: str) -> World:
     bodies = "".join(f'[[bodies]]\nid = "{mesh}"\nmesh = "{mesh}"\n' for mesh in meshes)
     Path(name).write_text(f'schema = "satcheck.scene/1"\n{bodies}')
@@ -371,3 +378,10 @@ def test_where_a_link_to_a_file_leads_counts_too() -> None:
     Path("box.obj").unlink()
     Path("box.obj").symlink_to("two/box.obj")
     assert checked([world], CheckOptions(allow_outside=True)) == [world]
+
+
+def test_only_a_result_that_is_kept_has_a_key() -> None:
+    """Its file is gone after the run, so no later one looks for it."""
+    world = scene("a.toml", copied("box.obj"))
+    assert key_in(world, Wanted(kept=True))
+    assert key_in(world, Wanted(kept=False)) is None
