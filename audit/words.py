@@ -218,6 +218,8 @@ def limits(finding: Finding, report: Report) -> list[str]:
         own = None if rule is None else rule.clearance
         limit = report.settings.clearance if own is None else own
         return [] if limit is None else [f"clearance {with_unit(stated(limit), unit)}"]
+    if finding.rule is None:
+        return []
     if rule is not None:
         asked = {
             "max_thickness": (rule.max_thickness, ""),

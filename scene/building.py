@@ -83,6 +83,8 @@ class SceneBuilder:
         self._inputs: list[Input] = []
         self._rule_files: set[str] = set()
         self._parted: set[str] = set()  # files of which a part is named
+        # What is known of a mesh that a file names, by its unit there and that of the document.
+        self._named: dict[tuple[FilePart, str | None, str | None], tuple[Item, float]] = {}
         self._entries: dict[str, Entry] = {}
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
@@ -177,27 +179,35 @@ class SceneBuilder:
 
     def _in_other_file(self, item: Item, named: FilePart, own: str | None) -> Item:
         """The item with the mesh that it names, where both files together place it. own: the unit
-        of its document. What blocks a pass about a file is said once, whoever names a part of
-        it."""
+        of its document."""
+        key = named, item.units, own
+        if key not in self._named:
+            self._named[key] = self._named_mesh(*key)
+        found, scale = self._named[key]
+        if found.transform is None:
+            place = scaled_mesh(item.transform, scale)
+        else:
+            place = multiply(item.transform, scaled_world(found.transform, scale))
+        return replace(item, path=named.part, shape=found.shape, transform=place)
+
+    def _named_mesh(
+        self, named: FilePart, units: str | None, own: str | None
+    ) -> tuple[Item, float]:
+        """The mesh that a file names, where its own file places it, and the factor of its lengths.
+        units: that override its own; own: the unit of the document. What blocks a pass about a file
+        is said once, whoever names a part of it."""
         found = self._files.item(named)
         if named.part is not None and named.location not in self._parted:
             self._parted.add(named.location)
             issues = self._files.issues_of_parts(named.location)
             self._issues += [each for each in issues if each.code in BLOCKING]
-        if item.units and isinstance(found.shape, MeshFile) and found.shape.units == RESCALED:
+        if not isinstance(found.shape, MeshFile):
+            return found, 1.0
+        if units and found.shape.units == RESCALED:
             message = "`units` cannot override the unit of this file: leave it out"
-            lost = Refused("unsupported-feature", message, file=named.path)
-            return replace(item, path=named.part, shape=lost)
-        place = item.transform
-        if isinstance(found.shape, MeshFile) and own is not None:
-            scale = ratio(stated_unit(item.units or found.shape.units) or own, own)
-            if found.transform is None:
-                place = scaled_mesh(place, scale)
-            else:
-                place = multiply(place, scaled_world(found.transform, scale))
-        elif found.transform is not None:
-            place = multiply(place, found.transform)
-        return replace(item, path=named.part, shape=found.shape, transform=place)
+            return Item(Refused("unsupported-feature", message, file=named.path)), 1.0
+        scale = 1.0 if own is None else ratio(stated_unit(units or found.shape.units) or own, own)
+        return found, scale
 
     def scene(self) -> Scene:
         """Raises Refused if a rule has to be expanded into too many pairs."""
