@@ -31,7 +31,7 @@ Box = tuple[Vector, Vector]
 
 def largest_coordinate(*boxes: Box) -> float:
     """The largest |coordinate|."""
-    return max(max(-x, -y, -z, u, v, w) for (x, y, z), (u, v, w) in boxes)
+    return max([max(-x, -y, -z, u, v, w) for (x, y, z), (u, v, w) in boxes])
 
 
 def corners(box: Box) -> list[Vector]:
