@@ -266,7 +266,6 @@ def _examined(
     block, after = next(blocks, []), next(blocks, [])
     total = close.count() if after else len(block)
     while block and failures < ENOUGH_FAILURES:
-
         told = None if progress is None else _counting_on(progress, len(pairs), total)
         kept = keep or bool(after)
         found = _examined_together(bodies, block, planner, movers, told, budget, keep=kept)

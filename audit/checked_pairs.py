@@ -194,7 +194,8 @@ def _along_curve(pairs: Sequence[Pair]) -> list[int]:
     order = core.order_along_curve([body.bounds for body in bodies])
     rank = {bodies[number]: place for place, number in enumerate(order)}
     count = len(bodies)
-    places = []  # the tiles of both bodies, then the bodies, each the earlier one first, as a number
+    # The tiles of both bodies, then the bodies, each the earlier one first, as one number.
+    places = []
     for pair in pairs:
         a, b = rank[pair.a], rank[pair.b]
         a, b = (a, b) if a < b else (b, a)

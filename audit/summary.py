@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -305,12 +306,12 @@ def effects_of(
     fail_on, examined = planner.settings.fail_on, 0
     for request, finding in close:
         examined += 1
-        by: set[str] = set(request.by)
+        by: AbstractSet[str] = request.by.keys()
         if request.if_failing and finding.at_rest in OVERLAPS and fails(finding, fail_on):
             called_for.update(request.if_failing)
-            by.update(request.if_failing)
+            by |= {*request.if_failing}
         if finding.motion is not None:
-            by.add("sweep")
+            by |= {"sweep"}
         done = _done(finding, by, time)
         for effect in by | done:
             if effect in spared:

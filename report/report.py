@@ -247,9 +247,10 @@ class Finding(Value, frozen=True, kw_only=True):
 
     def __post_init__(self) -> None:
         figures = [self.tolerance, self.distance, self.depth, self.volume, self.volume_error]
-        bounds = self.depth_bounds, self.distance_bounds, self.thickness_bounds
-        for each in filter(None, (self.normal, self.mtv, *bounds)):
-            figures += each
+        for bounds in (self.depth_bounds, self.distance_bounds, self.thickness_bounds):
+            figures += bounds or ()
+        for vector in (self.normal, self.mtv):
+            figures += vector or ()
         if not all(map(math.isfinite, filter(None, figures))):
             raise ValueError(f"the figures of a pair are finite numbers: {figures}")
 

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from satcheck.core.shapes import HalfSpace
 from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
-from satcheck.scene.document import COMPONENT_MARK, Document, FilePart, Item, UniqueNames
+from satcheck.scene.document import COMPONENT_MARK, Document, FilePart, Held, Item, UniqueNames
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import multiply
 from satcheck.scene.files.readers import mesh_reader
@@ -30,6 +30,7 @@ from satcheck.scene.units import (
 )
 
 if TYPE_CHECKING:
+    from satcheck.core.transform import Transform
     from satcheck.scene.planar.outline import Shape
     from satcheck.scene.robot import Srdf
 
@@ -138,11 +139,13 @@ class SceneBuilder:
         if item.entry is not None:
             self._entries[id_] = item.entry
             path = item.entry.file
-        if isinstance(item.shape, FilePart):
-            path, item = item.shape.path, self._in_other_file(item, item.shape, own.unit)
+        shape, transform, node = item.shape, item.transform, item.path
+        if isinstance(shape, FilePart):
+            path, node = shape.path, shape.part
+            shape, transform = self._in_other_file(item, shape, own.unit)
+        is_named = item.id or node
         exact: Shape | None = None
-        node = item.path
-        match item.shape:
+        match shape:
             case MeshFile() | Refused() as file:
                 pass
             case FilePart() | int():
@@ -158,13 +161,12 @@ class SceneBuilder:
             lost = Unreadable(id_, path, reason, groups_here, node, item.static, item.link)
             own.bodies.append(lost)
             return id_
-        is_named = item.id or item.path
         is_floor = isinstance(exact, HalfSpace)
         body = Body(
             id_,
             item.title or (wanted if is_named else own.document.name),
             file,
-            item.transform,
+            transform,
             groups_here,
             item.static or is_floor,
             exact,
@@ -177,18 +179,18 @@ class SceneBuilder:
         own.bodies.append(body)
         return id_
 
-    def _in_other_file(self, item: Item, named: FilePart, own: str | None) -> Item:
-        """The item with the mesh that it names, where both files together place it. own: the unit
-        of its document."""
+    def _in_other_file(
+        self, item: Item, named: FilePart, own: str | None
+    ) -> tuple[Held, Transform | None]:
+        """The mesh that an item names, and where both files together place it. own: the unit of its
+        document."""
         key = named, item.units, own
         if key not in self._named:
             self._named[key] = self._named_mesh(*key)
         found, scale = self._named[key]
         if found.transform is None:
-            place = scaled_mesh(item.transform, scale)
-        else:
-            place = multiply(item.transform, scaled_world(found.transform, scale))
-        return replace(item, path=named.part, shape=found.shape, transform=place)
+            return found.shape, scaled_mesh(item.transform, scale)
+        return found.shape, multiply(item.transform, scaled_world(found.transform, scale))
 
     def _named_mesh(
         self, named: FilePart, units: str | None, own: str | None
