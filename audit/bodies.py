@@ -161,9 +161,10 @@ class BodyCache:
         key: tuple[object, ...] = mesh_key(body.file, is_open=body.open)
         if body.file.prepared is not None:  # of one mesh, whatever the body is called
             meshes, key = body.file.prepared, (*key[2:], *SharedMesh.terms(settings))
-        if key not in meshes:
-            meshes[key] = SharedMesh(body.file, settings, is_open=body.open)
-        placed = PlacedBody(body, meshes[key], bounds)
+        shared = meshes.get(key)
+        if shared is None:
+            shared = meshes[key] = SharedMesh(body.file, settings, is_open=body.open)
+        placed = PlacedBody(body, shared, bounds)
         if (largest := largest_coordinate(placed.bounds)) > LARGEST_PLACED:
             far, most = told_apart(largest, LARGEST_PLACED)
             raise OverflowError(

@@ -31,7 +31,7 @@ Box = tuple[Vector, Vector]
 
 def largest_coordinate(*boxes: Box) -> float:
     """The largest |coordinate|."""
-    return max(max(-x, -y, -z, u, v, w) for (x, y, z), (u, v, w) in boxes)
+    return max([max(-x, -y, -z, u, v, w) for (x, y, z), (u, v, w) in boxes])
 
 
 def corners(box: Box) -> list[Vector]:
@@ -225,7 +225,7 @@ def _checked(body: Body, shared: SharedMesh, surface_tolerance: float) -> Placed
 class PlacedBody:
     """World frame. bounds: ((x, y, z), (x, y, z)), and their diagonal; resolution: the input
     precision, world units; surface_tolerance: how far its surface may be off; endless: it is a
-    half space.
+    half space; stretch: how much the transform stretches lengths at most, to rounding.
 
     curved: the shape of a curved body; its mesh is then only inscribed, and its bounds enclose the
     shape. Most bodies of a large scene are far from all others, so all other data are made on
@@ -244,6 +244,7 @@ class PlacedBody:
         "resolution",
         "shared",
         "solid",
+        "stretch",
         "surface_tolerance",
     )
 
@@ -257,7 +258,9 @@ class PlacedBody:
         if self.curved is not None:
             self.bounds = self.curved.bounds()
         self.diagonal = diagonal(self.bounds)
-        self.resolution = resolution_in_world(body.file, body.transform, shared.largest)
+        transform = body.transform
+        self.stretch = 1.0 if transform is None else core.largest_stretch(transform)
+        self.resolution = resolution_in_world(body.file, transform, shared.largest, self.stretch)
         self.solid = body.file.health.solid
         self.endless = body.shape is not None and is_half_space(body)
         self.surface_tolerance = _surface_tolerance(body, shared.surface_tolerance)

@@ -266,11 +266,7 @@ def _examined(
     block, after = next(blocks, []), next(blocks, [])
     total = close.count() if after else len(block)
     while block and failures < ENOUGH_FAILURES:
-
-        def told(done: int, _: int, before: int = len(pairs)) -> None:
-            if progress is not None:
-                progress(before + done, total)
-
+        told = None if progress is None else _counting_on(progress, len(pairs), total)
         kept = keep or bool(after)
         found = _examined_together(bodies, block, planner, movers, told, budget, keep=kept)
         pairs += block
@@ -288,12 +284,17 @@ def _examined(
     return pairs, examined, total - len(examined)
 
 
+def _counting_on(progress: Progress, before: int, total: int) -> Progress:
+    """Return what tells the progress of a block after so many pairs of a scene."""
+    return lambda done, _: progress(before + done, total)
+
+
 def _examined_together(
     bodies: PlacedBodies,
     close: list[IndexPair],
     planner: Planner,
     movers: Movers | None,
-    progress: Progress,
+    progress: Progress | None,
     budget: StepsOfScene,
     *,
     keep: bool,

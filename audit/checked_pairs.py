@@ -88,11 +88,10 @@ class StepsOfScene:
         many as any may."""
         if len(pairs) == 1 and not self._known:
             self.left = MOST_STEPS
-        for body in dict.fromkeys(body for pair in pairs for body in (pair.a, pair.b)):
+        for body in _bodies_of(pairs):
             if id(body) not in self._known:
                 self.left += self._steps_of(body)
-                self._known.add(id(body))
-                self._known.add(id(body.shared))
+                self._known |= {id(body), id(body.shared)}
 
     def _steps_of(self, body: PlacedBody) -> int:
         if body.curved is not None:
@@ -171,8 +170,10 @@ class _Held:
     def use(self, *bodies: PlacedBody) -> None:
         """Release the first ones if all bodies have too many triangles."""
         for body in bodies:
-            self._triangles += 0 if body in self._bodies else body.shared.triangles
-            self._bodies.pop(body, None)
+            if body in self._bodies:
+                del self._bodies[body]
+            else:
+                self._triangles += body.shared.triangles
             self._bodies[body] = None
         while self._triangles > HELD_TRIANGLES and len(self._bodies) > len(bodies):
             self.release(next(iter(self._bodies)))
@@ -183,15 +184,23 @@ class _Held:
         body.release()
 
 
+def _bodies_of(pairs: Sequence[Pair]) -> list[PlacedBody]:
+    """Return the bodies, each once."""
+    return [*dict.fromkeys([body for pair in pairs for body in (pair.a, pair.b)])]
+
+
 def _along_curve(pairs: Sequence[Pair]) -> list[int]:
-    bodies = [*dict.fromkeys(body for pair in pairs for body in (pair.a, pair.b))]
+    bodies = _bodies_of(pairs)
     order = core.order_along_curve([body.bounds for body in bodies])
     rank = {bodies[number]: place for place, number in enumerate(order)}
-    places = []  # sort key: the tiles of both bodies, then the bodies, each the earlier one first
+    count = len(bodies)
+    # The tiles of both bodies, then the bodies, each the earlier one first, as one number.
+    places = []
     for pair in pairs:
         a, b = rank[pair.a], rank[pair.b]
         a, b = (a, b) if a < b else (b, a)
-        places.append((a // TILE, b // TILE, a, b))
+        tiles = a // TILE * count + b // TILE
+        places.append((tiles * TILE + a % TILE) * TILE + b % TILE)
     return sorted(range(len(pairs)), key=places.__getitem__)
 
 

@@ -44,6 +44,9 @@ OPEN_BAND = "undecided: whether that is within the tolerance"
 OPEN_GAP = "the gap is not known: measuring it takes too many steps"
 
 
+_NOTHING_AHEAD = nullcontext()
+
+
 def _find_part_pairs(draft: Draft) -> None:
     from satcheck.audit.stages.part_pairs import find_part_pairs  # a check without parts is faster
 
@@ -68,7 +71,7 @@ def examine(draft: Draft, climb: Climb | None = None) -> Finding:
     settle(draft, climb)
     undecided = why_open(draft)
     if undecided is None:
-        with thickness_ahead(draft) if draft.pair.alone else nullcontext():
+        with thickness_ahead(draft) if draft.pair.alone else _NOTHING_AHEAD:
             if draft.exact in OVERLAPS:
                 undecided = _find_overlap(draft)
             else:
@@ -122,6 +125,9 @@ def open_by_fill(pair: Pair, hole: core.OpenHole) -> Finding:
 
 
 def _run_on_request(draft: Draft) -> None:
+    by = draft.pair.request.by
+    if by.keys().isdisjoint(STAGES):
+        return
     if draft.pair.curved:
         from satcheck.audit.stages.curved import note_unavailable
 
@@ -131,7 +137,6 @@ def _run_on_request(draft: Draft) -> None:
             _find_part_pairs(draft)
         note_unavailable(draft)
         return
-    by = draft.pair.request.by
     for effect, run in STAGES.items():
         if effect in by:
             run(draft)

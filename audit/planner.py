@@ -49,6 +49,8 @@ class Planner:
         self._requests: dict[tuple[int, ...], Request] = {}
 
     def request(self, i: int, j: int) -> Request:
+        if not self._book.rules:
+            return self._by_flags
         key = self._book.key(i, j)
         request = self._requests.get(key)
         if request is None:

@@ -146,7 +146,8 @@ class PosedPairs:
             body, largest = self._bodies[k].body, self._bodies[k].shared.largest
             for row in np.flatnonzero(asked & np.isnan(resolutions[:, k])).tolist():
                 transform = _transform_at(body, matrices[row, k])
-                resolutions[row, k] = resolution_in_world(body.file, transform, largest)
+                stretch = 1.0 if transform is None else core.largest_stretch(transform)
+                resolutions[row, k] = resolution_in_world(body.file, transform, largest, stretch)
         written = resolutions[:, sides[0]] + resolutions[:, sides[1]]
         plain = asked & (written <= _PLAINLY_FINE * min(pair.a.diagonal, pair.b.diagonal))
         deviation = pair.a.body.file.deviation + pair.b.body.file.deviation

@@ -105,7 +105,7 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
         Pair(bodies.placed[i], bodies.placed[j], settings, planner.request(i, j))
         for i, j in sorted(bodies.book.checked_pairs())
     ]
-    sizes = {body.id: size_of(body, None) for body in bodies.placed.values()}
+    sizes = {body.id: size_of(body) for body in bodies.placed.values()}
     # A tolerance of the size of a body gets a warning, from the check of its pose.
     small = all((p.request.tolerance or 0.0) < min(sizes[p.a.id], sizes[p.b.id]) for p in pairs)
     return PosedPairs(list(bodies.placed.values()), pairs) if pairs and small else None

@@ -5,15 +5,15 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from math import inf
 from typing import TYPE_CHECKING
 
 from satcheck._version import __version__
 from satcheck.audit.acceptance import with_states
 from satcheck.audit.bodies import PlacedBodies
-from satcheck.audit.body import PlacedBody
+from satcheck.audit.body import Box, PlacedBody
 from satcheck.audit.planner import FOR_FAILURES, Planner
-from satcheck.core import largest_stretch
 from satcheck.core.conventions import Plane, axes_of
 from satcheck.core.errors import SatcheckError
 from satcheck.report.bodies import Outline
@@ -133,27 +133,28 @@ def _unusable_report(body: Body | Unreadable) -> BodyReport:
 
 
 def _body_report(body: PlacedBody) -> BodyReport:
-    file, given = body.body.file, body.body.as_given or body.body
-    known = body.shared.decomposition.known
+    own, shared = body.body, body.shared
+    file, given = own.file, own.as_given or own
+    known = shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
     shape = given.shape
     return BodyReport(
         id=body.id,
-        name=body.body.name,
+        name=own.name,
         file=file.path,
         sha256=file.sha256,
-        path=body.body.path,
+        path=own.path,
         transform=None if given.transform is None else tuple(map(float, given.transform)),
-        units=body.body.units,
-        unit_scale=body.body.unit_scale,
-        groups=body.body.groups,
-        static=body.body.static,
-        open=body.body.open,
-        triangles=file.mesh.triangle_count,
+        units=own.units,
+        unit_scale=own.unit_scale,
+        groups=own.groups,
+        static=own.static,
+        open=own.open,
+        triangles=shared.triangles,
         health=file.health,
         resolution=body.resolution,
         surface_tolerance=body.surface_tolerance or None,
-        convex=body.shared.geometry.known_convex,
+        convex=shared.geometry.known_convex,
         parts=None if parts is None else len(parts.parts),
         part_error=None if parts is None else _part_error(body, parts),
         shape=Outline(shape.points) if isinstance(shape, FlatOutline) else shape,
@@ -231,7 +232,9 @@ def doubtful_sizes(
 ) -> Iterator[Issue]:
     """Bodies smaller than the tolerance of one of their pairs, and bodies of very different
     sizes."""
-    sizes = {bodies.ids[k]: size_of(body, plane) for k, body in bodies.placed.items()}
+    shared = {body.shared for body in bodies.placed.values()}
+    longest = {each: _longest_side(each.file.mesh.bounds, plane) for each in shared}
+    sizes = {body.id: body.stretch * longest[body.shared] for body in bodies.placed.values()}
     yield from _tolerances(sizes, findings)
     alike: dict[str | None, dict[str, float]] = {}
     for k, body in bodies.placed.items():
@@ -241,17 +244,20 @@ def doubtful_sizes(
         yield from _unlike(of_unit)
 
 
-def size_of(body: PlacedBody, plane: Plane | None) -> float:
+def size_of(body: PlacedBody) -> float:
     """The longest side of its own box, world units: the same in every pose."""
-    low, high = body.body.file.mesh.bounds
-    sides = [v - u for u, v in zip(low, high, strict=True)]
-    if plane is not None:
-        sides = [sides[axis] for axis in axes_of(plane)]
-    transform = body.body.transform
-    return max(sides) if transform is None else largest_stretch(transform) * max(sides)
+    return body.stretch * _longest_side(body.body.file.mesh.bounds, None)
+
+
+def _longest_side(box: Box, plane: Plane | None) -> float:
+    low, high = box
+    return max(high[axis] - low[axis] for axis in (range(3) if plane is None else axes_of(plane)))
 
 
 def _tolerances(sizes: dict[str, float], findings: Sequence[Finding]) -> Iterator[Issue]:
+    most = max((finding.tolerance or 0.0 for finding in findings), default=0.0)
+    if most <= min(sizes.values(), default=inf):
+        return
     larger: dict[str, list[float]] = {}  # of each body the tolerances that are larger than it
     for finding in findings:
         tolerance = finding.tolerance or 0.0
@@ -300,15 +306,16 @@ def effects_of(
     fail_on, examined = planner.settings.fail_on, 0
     for request, finding in close:
         examined += 1
-        by: set[str] = set(request.by)
+        by: AbstractSet[str] = request.by.keys()
         if request.if_failing and finding.at_rest in OVERLAPS and fails(finding, fail_on):
             called_for.update(request.if_failing)
-            by.update(request.if_failing)
+            by |= {*request.if_failing}
         if finding.motion is not None:
-            by.add("sweep")
+            by |= {"sweep"}
         done = _done(finding, by, time)
-        for effect in spared.keys() & (by | done):
-            spared[effect][_why_not(effect, finding, by, done)] += 1
+        for effect in by | done:
+            if effect in spared:
+                spared[effect][_why_not(effect, finding, by, done)] += 1
     unreadable = counts.asked - counts.pruned - examined - units_unknown
     before = (PRUNED, counts.pruned), (UNREADABLE, unreadable), (UNITS_UNKNOWN, units_unknown)
     reports = []

@@ -213,8 +213,11 @@ def rule_of(finding: Finding, report: Report) -> RuleReport | None:
 
 def limits(finding: Finding, report: Report) -> list[str]:
     """What the pair is held against: `clearance 5 mm`; of an overlap `max_depth 1 mm`."""
+    overlaps = finding.relation in OVERLAPS
+    if finding.rule is None and (overlaps or report.settings.clearance is None):
+        return []
     unit, rule = unit_of(report.units), rule_of(finding, report)
-    if finding.relation not in OVERLAPS:
+    if not overlaps:
         own = None if rule is None else rule.clearance
         limit = report.settings.clearance if own is None else own
         return [] if limit is None else [f"clearance {with_unit(stated(limit), unit)}"]

@@ -111,7 +111,9 @@ class Body(Struct, frozen=True):
     def resolution_world(self) -> float:
         """Precision of the world coordinates: the file's resolution, stretched by the transform,
         plus the precision of the placement."""
-        return resolution_in_world(self.file, self.transform, self.file.mesh.largest_coordinate)
+        stretch = 1.0 if self.transform is None else largest_stretch(self.transform)
+        largest = self.file.mesh.largest_coordinate
+        return resolution_in_world(self.file, self.transform, largest, stretch)
 
     @property
     def facet_tolerance(self) -> float:
@@ -241,14 +243,17 @@ class Scene(Struct, frozen=True):
         return sorted(everything, key=lambda body: rank.get(body.id, len(rank)))
 
 
-def resolution_in_world(file: MeshFile, transform: Transform | None, largest: float) -> float:
-    """See `Body.resolution_world`. largest: the largest |coordinate| of the file's mesh."""
+def resolution_in_world(
+    file: MeshFile, transform: Transform | None, largest: float, stretch: float
+) -> float:
+    """See `Body.resolution_world`. largest: the largest |coordinate| of the file's mesh. stretch:
+    how much the transform stretches lengths at most."""
     if transform is None:
         return file.resolution
     if _is_exact_scaling(transform):
         return file.resolution * transform[0]
     step = largest_placed(transform, largest) * file.placement_step
-    return file.resolution * largest_stretch(transform) + step
+    return file.resolution * stretch + step
 
 
 def _is_exact_scaling(transform: Transform) -> bool:

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from satcheck.core.shapes import HalfSpace
 from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
-from satcheck.scene.document import COMPONENT_MARK, Document, FilePart, Item, UniqueNames
+from satcheck.scene.document import COMPONENT_MARK, Document, FilePart, Held, Item, UniqueNames
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.placing import multiply
 from satcheck.scene.files.readers import mesh_reader
@@ -30,6 +30,7 @@ from satcheck.scene.units import (
 )
 
 if TYPE_CHECKING:
+    from satcheck.core.transform import Transform
     from satcheck.scene.planar.outline import Shape
     from satcheck.scene.robot import Srdf
 
@@ -83,6 +84,8 @@ class SceneBuilder:
         self._inputs: list[Input] = []
         self._rule_files: set[str] = set()
         self._parted: set[str] = set()  # files of which a part is named
+        # What is known of a mesh that a file names, by its unit there and that of the document.
+        self._named: dict[tuple[FilePart, str | None, str | None], tuple[Item, float]] = {}
         self._entries: dict[str, Entry] = {}
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
@@ -136,11 +139,13 @@ class SceneBuilder:
         if item.entry is not None:
             self._entries[id_] = item.entry
             path = item.entry.file
-        if isinstance(item.shape, FilePart):
-            path, item = item.shape.path, self._in_other_file(item, item.shape, own.unit)
+        shape, transform, node = item.shape, item.transform, item.path
+        if isinstance(shape, FilePart):
+            path, node = shape.path, shape.part
+            shape, transform = self._in_other_file(item, shape, own.unit)
+        is_named = item.id or node
         exact: Shape | None = None
-        node = item.path
-        match item.shape:
+        match shape:
             case MeshFile() | Refused() as file:
                 pass
             case FilePart() | int():
@@ -156,13 +161,12 @@ class SceneBuilder:
             lost = Unreadable(id_, path, reason, groups_here, node, item.static, item.link)
             own.bodies.append(lost)
             return id_
-        is_named = item.id or item.path
         is_floor = isinstance(exact, HalfSpace)
         body = Body(
             id_,
             item.title or (wanted if is_named else own.document.name),
             file,
-            item.transform,
+            transform,
             groups_here,
             item.static or is_floor,
             exact,
@@ -175,29 +179,37 @@ class SceneBuilder:
         own.bodies.append(body)
         return id_
 
-    def _in_other_file(self, item: Item, named: FilePart, own: str | None) -> Item:
-        """The item with the mesh that it names, where both files together place it. own: the unit
-        of its document. What blocks a pass about a file is said once, whoever names a part of
-        it."""
+    def _in_other_file(
+        self, item: Item, named: FilePart, own: str | None
+    ) -> tuple[Held, Transform | None]:
+        """The mesh that an item names, and where both files together place it. own: the unit of its
+        document."""
+        key = named, item.units, own
+        if key not in self._named:
+            self._named[key] = self._named_mesh(*key)
+        found, scale = self._named[key]
+        if found.transform is None:
+            return found.shape, scaled_mesh(item.transform, scale)
+        return found.shape, multiply(item.transform, scaled_world(found.transform, scale))
+
+    def _named_mesh(
+        self, named: FilePart, units: str | None, own: str | None
+    ) -> tuple[Item, float]:
+        """The mesh that a file names, where its own file places it, and the factor of its lengths.
+        units: that override its own; own: the unit of the document. What blocks a pass about a file
+        is said once, whoever names a part of it."""
         found = self._files.item(named)
         if named.part is not None and named.location not in self._parted:
             self._parted.add(named.location)
             issues = self._files.issues_of_parts(named.location)
             self._issues += [each for each in issues if each.code in BLOCKING]
-        if item.units and isinstance(found.shape, MeshFile) and found.shape.units == RESCALED:
+        if not isinstance(found.shape, MeshFile):
+            return found, 1.0
+        if units and found.shape.units == RESCALED:
             message = "`units` cannot override the unit of this file: leave it out"
-            lost = Refused("unsupported-feature", message, file=named.path)
-            return replace(item, path=named.part, shape=lost)
-        place = item.transform
-        if isinstance(found.shape, MeshFile) and own is not None:
-            scale = ratio(stated_unit(item.units or found.shape.units) or own, own)
-            if found.transform is None:
-                place = scaled_mesh(place, scale)
-            else:
-                place = multiply(place, scaled_world(found.transform, scale))
-        elif found.transform is not None:
-            place = multiply(place, found.transform)
-        return replace(item, path=named.part, shape=found.shape, transform=place)
+            return Item(Refused("unsupported-feature", message, file=named.path)), 1.0
+        scale = 1.0 if own is None else ratio(stated_unit(units or found.shape.units) or own, own)
+        return found, scale
 
     def scene(self) -> Scene:
         """Raises Refused if a rule has to be expanded into too many pairs."""

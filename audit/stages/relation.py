@@ -13,7 +13,7 @@ the trace of a pair.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
@@ -41,8 +41,12 @@ LAST: dict[Accuracy, Rung] = {
 }
 TOO_MANY_STEPS = "deciding takes more steps than a pair may"
 NO_STEPS_LEFT = "deciding takes more steps than the scene leaves for it: check the two alone"
-_UNTURNED = "neither placement turns: oriented boxes are the world boxes"
-_SHEARED = "a transform shears: the carried box is no box"
+# The result and the words of oriented boxes that are not apart.
+_OBB = {
+    "meet": ("meet", "sat: none of 15 axes separates"),
+    "unturned": ("skipped", "neither placement turns: oriented boxes are the world boxes"),
+    "sheared": ("skipped", "a transform shears: the carried box is no box"),
+}
 _NOT_CONVEX = "not both convex: hulls prove only separation"
 # The axis of least overlap, or the axis that separates, by the features that it is made of.
 _AXES = {
@@ -57,9 +61,9 @@ def settle(draft: Draft, climb: core.Climb | None = None) -> None:
     core has made it already."""
     pair = draft.pair
     climb = _climb(pair) if climb is None else climb
-    draft.steps, draft.wants_more = climb.steps, climb.too_few_steps and climb.steps >= pair.steps
-    beyond = climb.settled and climb.relation == "separated" and climb.gap_lower > pair.gap_limit
-    if pair.on_half_space and pair.may("hull") and not beyond:
+    draft.steps = climb.steps
+    draft.wants_more = climb.too_few_steps and draft.steps >= pair.steps
+    if pair.on_half_space and pair.may("hull") and not _is_beyond(pair, climb):
         from satcheck.audit.stages.half_space import settle_half_space
 
         settle_half_space(draft, lambda: _by_rungs(draft, climb))
@@ -77,6 +81,11 @@ def apart_by_boxes(draft: Draft) -> bool:
     draft.stages += rungs_of(climb)
     _take(draft, climb)
     return climb.settled
+
+
+def _is_beyond(pair: Pair, climb: core.Climb) -> bool:
+    """Return whether a rung has proven a gap beyond `gap_limit`."""
+    return climb.settled and climb.relation == "separated" and climb.gap_lower > pair.gap_limit
 
 
 def _by_rungs(draft: Draft, climb: core.Climb) -> None:
@@ -98,12 +107,13 @@ def _by_rungs(draft: Draft, climb: core.Climb) -> None:
 
 def _take(draft: Draft, climb: core.Climb) -> None:
     """Take the answer of the core."""
-    weak = None if climb.hole is None else open_hole(draft.pair, climb.hole)
+    weak = None
+    if (hole := climb.hole) is not None:
+        weak, draft.reason_code = open_hole(draft.pair, hole), "open-hole"
     if not climb.decided:
         weak = NO_STEPS_LEFT if draft.wants_more else TOO_MANY_STEPS
     draft.found(climb.relation, climb.proven, climb.gap_lower, climb.signed_distance, weak=weak)
     draft.crossing, draft.point, draft.climb = climb.crossing, climb.point, climb
-    draft.reason_code = None if climb.hole is None else "open-hole"
 
 
 def open_hole(pair: Pair, hole: core.OpenHole) -> str:
@@ -181,8 +191,10 @@ def _open_pieces_around(pair: Pair) -> str | None:
     box whose faces miss each other by more than the precision of the file has six open parts. They
     count as six sheets, but the box may be meant as a solid.
     """
+    if pair.both_solid or pair.settings.allow_open:
+        return None
     for outer, inner in ((pair.a, pair.b), (pair.b, pair.a)):
-        if outer.solid or pair.settings.allow_open or outer.body.open:
+        if outer.solid or outer.body.open:
             continue
         health = outer.body.file.health
         in_pieces = not (health.closed or health.flat or outer.curved)
@@ -207,54 +219,48 @@ def _is_around(body: PlacedBody, point: Vector) -> bool:
 
 def rungs_of(climb: core.Climb) -> list[Stage]:
     """Return the rungs that ran, in their order, without the touch band and the gap."""
-    hulls, triangles = climb.hulls, climb.triangles
-    rungs: list[tuple[int, str, str, str]] = []
-    if climb.boxes or (hulls is None and triangles is None):  # else the climb began above them
-        rungs.append((0, "aabb", *_world_boxes(climb.box_gap)))
-    if climb.boxes:
-        rungs.append((1, "obb", *_oriented_boxes(climb)))
+    boxes, hulls, triangles, cost = climb.boxes, climb.hulls, climb.triangles, climb.nanoseconds
+    rungs: list[Stage] = []
+    if boxes or (hulls is None and triangles is None):  # else the climb began above them
+        rungs.append(_world_boxes(climb.box_gap, cost[0] / 1000.0))
+    if boxes:
+        result, detail = _OBB.get(boxes) or ("separated", _separating_axis(*climb.box_axis))
+        rungs.append(Stage("obb", result, cost[1] / 1000.0, detail))
     if hulls is not None:
-        rungs.append((2, "hull", *_hulls(climb, hulls)))
-    if climb.nesting is not None:
-        rungs.append((3, "containment", climb.nesting, "one world box holds the other"))
+        rungs.append(Stage("hull", *_hulls(climb, hulls, cost[2] / 1000.0)))
+    if (nesting := climb.nesting) is not None:
+        detail = "one world box holds the other"
+        rungs.append(Stage("containment", nesting, cost[3] / 1000.0, detail))
     if triangles is not None:
-        rungs.append((4, "triangles", *_triangles(triangles)))
-    cost = climb.nanoseconds
-    return [Stage(rung, result, cost[k] / 1000.0, detail) for k, rung, result, detail in rungs]
+        rungs.append(Stage("triangles", *_triangles(triangles, cost[4] / 1000.0)))
+    return rungs
 
 
-def _world_boxes(gap: float) -> tuple[str, str]:
+def _world_boxes(gap: float, microseconds: float) -> Stage:
     if gap > 0:
-        return "separated", f"world boxes apart by at least {gap:.6g}"
-    return "meet", "world boxes meet"
-
-
-def _oriented_boxes(climb: core.Climb) -> tuple[str, str]:
-    match climb.boxes:
-        case "apart":
-            return "separated", _separating_axis(*climb.box_axis)
-        case "sheared":
-            return "skipped", _SHEARED
-        case "unturned":
-            return "skipped", _UNTURNED
-    return "meet", "sat: none of 15 axes separates"
+        detail = f"world boxes apart by at least {gap:.6g}"
+        return Stage("aabb", "separated", microseconds, detail)
+    return Stage("aabb", "meet", microseconds, "world boxes meet")
 
 
 def _separating_axis(feature: str, a: int, b: int, tested: int) -> str:
-    names = [f"{'xyz'[k]} of {body}" for k, body in ((a, "A"), (b, "B")) if k >= 0]
-    axis = " across ".join(f"edge {name}" for name in names)
-    if feature != "edge-edge":
-        axis = f"face normal {names[0]}"
+    if feature == "edge-edge":
+        axis = f"edge {'xyz'[a]} of A across edge {'xyz'[b]} of B"
+    else:
+        axis = f"face normal {'xyz'[a]} of A" if a >= 0 else f"face normal {'xyz'[b]} of B"
     return f"sat: {axis} separates, {tested} of 15 axes tested"
 
 
-def _hulls(climb: core.Climb, hulls: core.PairResult) -> tuple[str, str]:
+def _hulls(
+    climb: core.Climb, hulls: core.PairResult, microseconds: float
+) -> tuple[str, float, str]:
+    outcome = hulls.outcome
     if climb.both_convex:
-        return hulls.outcome, f"both convex: {_method(hulls)}"
-    if hulls.outcome == "separated":
+        return outcome, microseconds, f"both convex: {_method(hulls)}"
+    if outcome == "separated":
         gap = max(hulls.lower or 0.0, climb.box_gap)
-        return "separated", f"hulls apart by at least {gap:.6g}"
-    return "undecided" if hulls.outcome == "undecided" else "meet", _NOT_CONVEX
+        return outcome, microseconds, f"hulls apart by at least {gap:.6g}"
+    return "undecided" if outcome == "undecided" else "meet", microseconds, _NOT_CONVEX
 
 
 def _method(hulls: core.PairResult) -> str:
@@ -264,18 +270,16 @@ def _method(hulls: core.PairResult) -> str:
     return f"{axes}: exact signs" if hulls.method == "exact" else axes
 
 
-def _triangles(triangles: core.MeshRelation) -> tuple[str, str]:
+def _triangles(triangles: core.MeshRelation, microseconds: float) -> tuple[str, float, str]:
     if not triangles.decided:
-        return "undecided", "too many steps"
-    return triangles.relation, ", ".join(_tests(triangles))
-
-
-def _tests(triangles: core.MeshRelation) -> Iterator[str]:
-    if triangles.edge_tests is None:
-        yield f"{triangles.box_tests} box tests, {triangles.triangle_tests} triangle tests"
+        return "undecided", microseconds, "too many steps"
+    a, b, edge_tests = triangles.triangle_a, triangles.triangle_b, triangles.edge_tests
+    if edge_tests is None:
+        said = f"{triangles.box_tests} box tests, {triangles.triangle_tests} triangle tests"
     else:
-        yield f"{triangles.edge_tests} tests of edges of the outlines"
-    if triangles.triangle_a >= 0 and triangles.triangle_b >= 0:
-        yield f"triangles {triangles.triangle_a} and {triangles.triangle_b} meet"
+        said = f"{edge_tests} tests of edges of the outlines"
+    if a >= 0 and b >= 0:
+        said += f", triangles {a} and {b} meet"
     if not triangles.proven:
-        yield "sampled in a degenerate contact"
+        said += ", sampled in a degenerate contact"
+    return triangles.relation, microseconds, said
