@@ -127,8 +127,8 @@ def test_orientation_repairs() -> None:
 def test_hull_of_a_sheared_box_is_the_box() -> None:
     solid = box((0, 0, 0), (3, 2, 2)).mesh(SHEAR)
     hull = solid.convex_hull()
-    assert (hull.dimension, len(hull.vertices), hull.face_count, hull.edge_count) == (3, 8, 6, 12)
-    assert np.array_equal(solid.vertices[hull.source], hull.vertices)
+    assert (hull.dimension, len(hull.vertices), len(hull.triangles)) == (3, 8, 12)
+    assert {*map(tuple, hull.vertices)} <= {*map(tuple, solid.vertices)}
     assert hull.to_mesh().topology().volume == solid.topology().volume
     assert solid.convexity_defect(0.0) == 0.0
 

@@ -316,15 +316,7 @@ void bind_polytope(nb::module_& m) {
                    [](nb::handle self) {
                      return rows_view<std::uint32_t>(nb::cast<const Polytope&>(self).triangles, self);
                    })
-      .def_prop_ro("source",
-                   [](nb::handle self) {
-                     const auto& source = nb::cast<const Polytope&>(self).source;
-                     return nb::ndarray<nb::numpy, const std::uint32_t, nb::shape<-1>>(
-                         source.data(), {source.size()}, self);
-                   })
       .def_prop_ro("vertex_count", [](const Polytope& p) { return p.vertices.size(); })
-      .def_prop_ro("face_count", &Polytope::face_count)
-      .def_prop_ro("edge_count", [](const Polytope& p) { return p.edges.size(); })
       .def("to_mesh", [](const Polytope& p) { return Mesh{p.vertices, p.triangles}; });
 }
 

@@ -9,14 +9,12 @@
 
 namespace satcheck {
 
-// The outcome; for separate sets, also bounds of the distance of their hulls. The lower bound is proven against every
-// point, and usually within a hundredth of the distance. Empty if it takes too many rounds. largest: the largest
-// |coordinate|. Neither set is empty.
-std::optional<PairResult> hulls_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest);
-
-// What check_pair() with Query::depth says of the hulls, with bounds as close. Empty if it takes too many rounds, or if the
-// hulls may touch. budget: is polled, and pays nothing.
-std::optional<PairResult> depth_of_hulls(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest,
+// Empty if it takes too many rounds, or if the hulls may touch. Neither set is empty. largest: the largest |coordinate|.
+//
+// Query::depth: what check_pair() says of the hulls, with bounds as close. Query::distance: the outcome, and for separate
+// sets bounds of the distance of their hulls. The lower bound is proven against every point, and usually within a
+// hundredth of the distance. budget: is polled, and pays nothing.
+std::optional<PairResult> check_hulls_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest, Query query,
                                          const Budget* budget = nullptr);
 
 }  // namespace satcheck

@@ -74,6 +74,10 @@ double largest_coordinate(PlacedGeometry& a, PlacedGeometry& b) {
   return larger(a.bounds().largest_coordinate(), b.bounds().largest_coordinate());
 }
 
+std::optional<PairResult> check_hulls_of_points(PlacedGeometry& a, PlacedGeometry& b, Query query, const Budget& budget) {
+  return check_hulls_of(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b), query, &budget);
+}
+
 class Climber {
  public:
   Climber(const ClimbRequest& request, Rung first, Rung last, const Poll& poll)
@@ -172,7 +176,7 @@ class Climber {
   double largest_coordinate() const { return satcheck::largest_coordinate(*request_.a, *request_.b); }
 
   bool points_are_apart() {
-    climb_.hulls = hulls_apart(request_.a->mesh()->vertices, request_.b->mesh()->vertices, largest_coordinate());
+    climb_.hulls = check_hulls_of_points(*request_.a, *request_.b, Query::distance, budget_);
     return climb_.hulls ? climb_.hulls->outcome == Outcome::separated : hulls_are_apart();
   }
 
@@ -310,7 +314,7 @@ Verdict by_convex_hulls(const ClimbRequest& request, const Climb& climb, const P
 
 PairResult hull_depth(PlacedGeometry& a, PlacedGeometry& b, bool alone, const Budget& budget, MethodChoice method) {
   if (method == MethodChoice::automatic && spares_hulls(a, b, alone)) {
-    if (const auto depth = depth_of_hulls(a.mesh()->vertices, b.mesh()->vertices, largest_coordinate(a, b), &budget)) return *depth;
+    if (const auto depth = check_hulls_of_points(a, b, Query::depth, budget)) return *depth;
   }
   make_hull_shapes(a, b, budget);
   return check_pair(*a.hull_shape(), {}, *b.hull_shape(), {}, Query::depth, method);

@@ -177,8 +177,8 @@ bool is_dented(const Mesh& mesh) {
     const Corners t = corners(mesh, static_cast<std::uint32_t>(i));
     const TrianglePlane plane(t[0], t[1], t[2]);
     bool above = false, below = false;
-    for (const Triangle& other : mesh.triangles) {
-      const int side = plane.side(mesh.vertices[other[0]]);
+    for (std::size_t j = 0; j < mesh.triangles.size(); j += 2) {  // a vertex has about two triangles of its own
+      const int side = plane.side(mesh.vertices[mesh.triangles[j][0]]);
       above = above || side > 0;
       below = below || side < 0;
       if (above && below) return true;
@@ -196,11 +196,11 @@ Bends bends_of(const Mesh& welded) {
   Bends bends = Bends::outward;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges.half_edges(e);
-    if (h.size() != 2 || edges.balance(e) != 0) bends = Bends::unknown;
+    if (h.size() != 2 || edges.ascends(h[0]) == edges.ascends(h[1])) bends = Bends::unknown;
     if (h.size() != 2) continue;
     const Corners t = corners(welded, h[0] / 3);
-    const Vec3 apex = corners(welded, h[1] / 3)[(h[1] + 2) % 3];
-    if (orientation(t[0], t[1], t[2], apex) > 0) return Bends::inward;
+    const std::uint32_t apex = welded.triangles[h[1] / 3][(h[1] + 2) % 3];
+    if (TrianglePlane(t[0], t[1], t[2]).side(welded.vertices[apex]) > 0) return Bends::inward;
   }
   return bends;
 }
@@ -208,13 +208,22 @@ Bends bends_of(const Mesh& welded) {
 // Along no edge of common meshes, so that the ray meets none.
 constexpr Vec3 kAskew{0.71, 0.43, 0.57};
 
+// Whether a triangle may have a point with no smaller coordinates than this one, as all points of a ray along kAskew have.
+bool reaches_octant(const Corners& c, Vec3 point) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (c[0][axis] < point[axis] && c[1][axis] < point[axis] && c[2][axis] < point[axis]) return false;
+  }
+  return true;
+}
+
 // Whether the point is below the planes of all triangles, and a ray from it crosses one of them.
 bool is_seen_once_from(const Mesh& mesh, Vec3 point) {
   const Vec3 ahead = point + kAskew * norm(bounds_of(mesh.vertices).size());
   std::size_t crossed = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Corners c = corners(mesh, t);
-    if (orientation(c[0], c[1], c[2], point) >= 0) return false;
+    if (TrianglePlane(c[0], c[1], c[2]).side(point) >= 0) return false;
+    if (!reaches_octant(c, point)) continue;
     int sides = 1;
     for (std::size_t i = 0; i < 3 && sides > 0; ++i) sides = orientation(point, ahead, c[i], c[(i + 1) % 3]);
     if (sides == 0) return false;

@@ -23,7 +23,7 @@ double largest_of(const std::vector<Vec3>& points) {
 }
 
 void compare(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  const auto found = hulls_apart(a, b, std::fmax(largest_of(a), largest_of(b)));
+  const auto found = check_hulls_of(a, b, std::fmax(largest_of(a), largest_of(b)), Query::distance);
   const PairResult truth = check_pair(make_hull(a), {}, make_hull(b), {}, Query::distance);
   CHECK(found);
   if (!found) return;
@@ -35,7 +35,7 @@ void compare(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 void compare_depth(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   const double largest = std::fmax(largest_of(a), largest_of(b));
-  const auto found = depth_of_hulls(a, b, largest);
+  const auto found = check_hulls_of(a, b, largest, Query::depth);
   const PairResult truth = check_pair(make_hull(a), {}, make_hull(b), {}, Query::depth);
   CHECK(found);
   if (!found) return;
@@ -58,7 +58,7 @@ void random_balls() {
 void depth_of_flat_sets() {
   const std::vector<Vec3> square{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
   compare_depth(square, moved(square, {0, 0, 1}));
-  CHECK(!depth_of_hulls(square, moved(square, {1, 0, 0}), 3));  // they touch
+  CHECK(!check_hulls_of(square, moved(square, {1, 0, 0}), 3, Query::depth));  // they touch
 }
 
 void flat_and_few_points() {
@@ -71,7 +71,7 @@ void flat_and_few_points() {
 
 void a_gap_below_rounding_is_left_open() {
   const std::vector<Vec3> square{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
-  CHECK(!hulls_apart(square, moved(square, {0, 0, 1e-20}), 2));
+  CHECK(!check_hulls_of(square, moved(square, {0, 0, 1e-20}), 2, Query::distance));
 }
 
 }  // namespace
