@@ -180,7 +180,7 @@ def _lacks_schema(path: Path, permitted: Permitted) -> bool:
     from satcheck.scene.scene_file.text import SceneText
 
     try:
-        tree = SceneText(str(path), path, permitted.most).document
+        tree = SceneText(str(path), permitted.most).document
     except Refused:
         return False
     bodies = tree.get("bodies") if isinstance(tree, dict) else None
