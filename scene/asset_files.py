@@ -103,7 +103,7 @@ class _LeftOut:
 def content_of(path: Path, permitted: Permitted) -> bytes | None:
     """None if the file cannot be read. Its reader reports why."""
     try:
-        return read_whole(str(path), path, permitted.most)
+        return read_whole(path, permitted.most)
     except Refused:
         return None
 

@@ -159,11 +159,11 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
                     builder.add(scenes[path])
                 case "robot":
                     geometry = self.geometry or "collision"
-                    builder.add(files.robot(path, path, self.packages or {}, geometry))
+                    builder.add(files.robot(path, self.packages or {}, geometry))
                 case "srdf":
                     from satcheck.scene.robot import read_srdf
 
-                    builder.add_srdf(read_srdf(path, Path(path), files.allowed.permitted))
+                    builder.add_srdf(read_srdf(path, files.allowed.permitted))
                 case _:
                     found = files.document(path, path, split if kind == "mesh" else "nodes")
                     builder.add(_as_input(found, path, kind), next(ids[kind]), alone=alone)
@@ -284,7 +284,7 @@ def has_only_rules(path: str, permitted: Permitted) -> bool:
     bodies. Raises Refused."""
     if kind_of(path) != "scene":
         return False
-    data = read_whole(path, path, permitted.most)
+    data = read_whole(path, permitted.most)
     if _BODY.search(data):
         return False
     scene = _scene(path, permitted)

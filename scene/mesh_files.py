@@ -214,7 +214,6 @@ class MeshFiles:
     def robot(
         self,
         path: str,
-        location: StrPath,
         packages: Mapping[str, str | Path],
         geometry: GeometryKind,
     ) -> Document:
@@ -224,9 +223,9 @@ class MeshFiles:
         from satcheck.scene.robot.model import RobotDocument
         from satcheck.scene.robot.reading import required_robot_reader
 
-        with _reading(path, location):
-            reader = required_robot_reader(path, location, self.allowed.permitted)
-            folder, name = os.path.split(location)
+        with _reading(path, path):
+            reader = required_robot_reader(path, self.allowed.permitted)
+            folder, name = os.path.split(path)
             file = File(
                 reader.name,
                 folder or os.curdir,

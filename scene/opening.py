@@ -180,16 +180,16 @@ def size_of(location: StrPath) -> int:
     return status.st_size
 
 
-def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
+def read_whole(path: StrPath, most: Most = OWN_FILE) -> bytes:
     """The bytes of a text file, without padding; but of TOML as they are, because no mark ends its
     last table, and NUL bytes may stand where more tables were lost. Raises Refused, with the path,
     if it is not a regular file, is too large, or cannot be read."""
     try:
-        data = _read(location, size_of(location), most)
-        note_bytes(location, data)
-        return data if suffix_of(location).lower() == ".toml" else without_padding(data)
+        data = _read(path, size_of(path), most)
+        note_bytes(path, data)
+        return data if suffix_of(path).lower() == ".toml" else without_padding(data)
     except Refused as error:
-        raise Refused(error.code, error.message, file=path) from None
+        raise Refused(error.code, error.message, file=os.fspath(path)) from None
 
 
 def without_padding(data: bytes) -> bytes:

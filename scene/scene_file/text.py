@@ -159,7 +159,7 @@ def is_toml(path: StrPath) -> bool:
 
 def read_text(path: str, most: Most = OWN_FILE) -> str:
     """Raises Refused."""
-    data = read_whole(path, path, most)
+    data = read_whole(path, most)
     try:
         return data.removeprefix(BOM_UTF8).decode()  # line ends as they are
     except UnicodeDecodeError:
@@ -169,7 +169,7 @@ def read_text(path: str, most: Most = OWN_FILE) -> str:
 def _parsed(text: str) -> dict[str, Any]:
     """Raises ValueError for text that is not TOML, and for a key of many parts: the parser takes
     time and memory by the square of their number."""
-    dotted = (line for line in text.split("\n") if line.count(".") >= MAX_DEPTH)
+    dotted = [line for line in text.split("\n") if line.count(".") >= MAX_DEPTH]
     if any(map(_LONG_KEY.search, dotted)):
         raise ValueError(f"a key has more than {MAX_DEPTH} parts")
     return tomli.loads(text)
