@@ -51,7 +51,7 @@ def bodies_of(file: File, read: Document, split: Split) -> Document:
     Raises Refused if nothing can be used."""
     if split != "none":
         return inspected(file, read, apart=split == "components")
-    mesh = mesh_file(file, flattened(read))
+    mesh = mesh_file(file, read.only_mesh or flattened(read))
     return Document(items=(Item(mesh),), units=mesh.units)
 
 
