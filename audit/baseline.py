@@ -371,7 +371,7 @@ def read_baseline(path: Path) -> Baseline:
         reason = "no such file: `satcheck baseline write` makes one"
         raise SatcheckError("file-not-found", reason, file=str(path))
     try:
-        text = read_whole(str(path), path)
+        text = read_whole(path)
         schema = msgspec.json.decode(text, type=_Head).schema
         if schema != SCHEMA and schema.startswith(SCHEMA.rstrip("1")):
             reason = "of another version of satcheck: write it again"

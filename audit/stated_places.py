@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from msgspec.structs import replace
 
 from satcheck.report.bodies import Place
@@ -27,7 +25,7 @@ def with_stated_places(report: Report, scene: Scene) -> Report:
         if entry.number is not None:
             wanted.setdefault((entry.file, entry.text), []).append(("bodies", entry.number))
     lines = {
-        (file, text): lines_of(text, keys, toml=is_toml(Path(file)))
+        (file, text): lines_of(text, keys, toml=is_toml(file))
         for (file, text), keys in wanted.items()
     }
     places = {}

@@ -218,7 +218,7 @@ def read_config(path: Path, *, found: bool = False) -> ConfigFile | None:
 
     keys = ("tool", "satcheck") if path.name == PROJECT else ()
     try:
-        data = read_whole(str(path), path)
+        data = read_whole(path)
         if found and keys and b"satcheck" not in data:
             return None  # without a parser
         from satcheck.scene.scene_file.text import read_toml

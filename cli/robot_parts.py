@@ -58,7 +58,7 @@ def write_urdf(
     path = robot.robot.file
     back = os.path.relpath(Path(path).absolute().parent, output.absolute().parent)
     document = urdf_of_parts(
-        read_whole(path, path, inputs.permitted.most_of_tree),
+        read_whole(path, inputs.permitted.most_of_tree),
         robot,
         {id_: entry.line for id_, entry in scene.entries.items()},
         {

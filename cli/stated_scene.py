@@ -101,7 +101,7 @@ def _issue(code: str, entry: BodyReport | SampledBody, message: str) -> Issue:
 def read_stored(path: Path) -> Report | AssetsReport | SamplesReport:
     """Return the report in a file. Raises SatcheckError: `bad-report`, or a code about the file."""
     try:
-        head = msgspec.json.decode(read_whole(str(path), path))
+        head = msgspec.json.decode(read_whole(path))
         kinds = {"assets": AssetsReport, "samples": SamplesReport} if isinstance(head, dict) else {}
         kind = next((kinds[field] for field in kinds if field in head), Report)
         return cast("Report | AssetsReport | SamplesReport", msgspec.convert(head, kind))

@@ -209,25 +209,26 @@ class Context:
         where = " and of ".join((self._words, *self.permitted.folders))
         return Refused("outside-path", f"{what} lies outside of {where}: {advice}")
 
-    def find(self, what: str, name: str) -> str:
-        """Return where a file lies that is named. what: as above. Raises Refused."""
+    def find(self, noun: str, name: str) -> str:
+        """Return where a file lies that is named. noun: what it is. Raises Refused."""
         if "\0" in name:
-            raise Refused("bad-record", f"the path of {what} holds a NUL character")
+            raise Refused("bad-record", f"the path of {noun} {name!r} holds a NUL character")
         # As `Path` joins them, which takes long.
         is_tidy = "./" not in name and "//" not in name
         place = os.path.join(self._start, name) if is_tidy else str(Path(self._folder, name))  # noqa: PTH118
         note(place)
         is_plain = _is_plain_file(place)
         if not self.permits(place, is_plain=is_plain):
-            raise self.refusal(what)
-        if not is_plain and not os.path.isfile(place):  # noqa: PTH113
-            raise no_file(place, f"{what} ") or Refused("missing-resource", f"{what} is missing")
-        return place
+            raise self.refusal(f"{noun} {name!r}")
+        if is_plain or os.path.isfile(place):  # noqa: PTH113
+            return place
+        what = f"{noun} {name!r}"
+        raise no_file(place, f"{what} ") or Refused("missing-resource", f"{what} is missing")
 
     @contextmanager
-    def open(self, what: str, name: str) -> Iterator[tuple[FileIO, int]]:
+    def open(self, noun: str, name: str) -> Iterator[tuple[FileIO, int]]:
         """Open such a file, and yield it with its size. Raises Refused, also while it is read."""
-        place = self.find(what, name)
+        place, what = self.find(noun, name), f"{noun} {name!r}"
         try:
             with FileIO(place) as file:
                 size = os.fstat(file.fileno()).st_size

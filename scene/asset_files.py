@@ -103,7 +103,7 @@ class _LeftOut:
 def content_of(path: Path, permitted: Permitted) -> bytes | None:
     """None if the file cannot be read. Its reader reports why."""
     try:
-        return read_whole(str(path), path, permitted.most)
+        return read_whole(path, permitted.most)
     except Refused:
         return None
 
@@ -180,7 +180,7 @@ def _lacks_schema(path: Path, permitted: Permitted) -> bool:
     from satcheck.scene.scene_file.text import SceneText
 
     try:
-        tree = SceneText(str(path), path, permitted.most).document
+        tree = SceneText(str(path), permitted.most).document
     except Refused:
         return False
     bodies = tree.get("bodies") if isinstance(tree, dict) else None

@@ -208,7 +208,8 @@ class Document(Struct, frozen=True, tag=True):
             raise Refused("empty-mesh", "empty mesh: nothing that the file places has triangles")
         if len(self.items) > 1 and len({item.path for item in self.items}) < len(self.items):
             raise Refused("reader-failed", "its reader gives two bodies one path")
-        if not all(0 <= item.number < len(self.parts) for item in self.items):
+        numbers = [item.number for item in self.items]
+        if min(numbers) < 0 or max(numbers) >= len(self.parts):
             raise Refused("reader-failed", "its reader places a mesh that is not there")
 
 

@@ -159,11 +159,11 @@ class LoadOptions(Struct, frozen=True, kw_only=True):
                     builder.add(scenes[path])
                 case "robot":
                     geometry = self.geometry or "collision"
-                    builder.add(files.robot(path, path, self.packages or {}, geometry))
+                    builder.add(files.robot(path, self.packages or {}, geometry))
                 case "srdf":
                     from satcheck.scene.robot import read_srdf
 
-                    builder.add_srdf(read_srdf(path, Path(path), files.allowed.permitted))
+                    builder.add_srdf(read_srdf(path, files.allowed.permitted))
                 case _:
                     found = files.document(path, path, split if kind == "mesh" else "nodes")
                     builder.add(_as_input(found, path, kind), next(ids[kind]), alone=alone)
@@ -206,7 +206,8 @@ def scene_of_document(document: Document, file: File) -> Scene:
     """Return the scene of what a reader has made of a file that places bodies. Raises Refused if no
     body can be used."""
     builder = SceneBuilder(MeshFiles(), None)
-    builder.add(bodies_of(file, document, "nodes", "document"), alone=True)
+    bodies = bodies_of(file, document, "nodes")
+    builder.add(_as_input(bodies, file.path, "document"), alone=True)
     return builder.scene()
 
 
@@ -244,15 +245,14 @@ def _scene(path: str, permitted: Permitted) -> SceneFile:
     """Raises Refused."""
     from satcheck.scene.scene_file.reading import read_scene_file
 
-    return read_scene_file(path, Path(path), permitted)
+    return read_scene_file(path, permitted)
 
 
 def _as_input(found: Document | Refused, path: str, kind: InputKind) -> Document:
     """A mesh file or a document under the path that names it here."""
-    if isinstance(found, Document):
-        return replace(found, path=path)
+    document = found if isinstance(found, Document) else Document(items=(Item(found),))
     of: Kind = "mesh" if kind == "mesh" else "scene"
-    return Document(path=path, name=name_of(path)[0] or path, kind=of, items=(Item(found),))
+    return replace(document, path=path, name=name_of(path)[0] or path, kind=of)
 
 
 def _stated_reading(scenes: Iterable[SceneFile]) -> dict[str, Any]:
@@ -270,7 +270,7 @@ def read_rules(path: str, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
     """A file of rules. permitted: how large it may be. Raises Refused."""
     from satcheck.scene.scene_file.reading import read_rules_file
 
-    return read_rules_file(path, Path(path), permitted)
+    return read_rules_file(path, permitted)
 
 
 def is_rules(path: str, permitted: Permitted) -> bool:
@@ -284,7 +284,7 @@ def has_only_rules(path: str, permitted: Permitted) -> bool:
     bodies. Raises Refused."""
     if kind_of(path) != "scene":
         return False
-    data = read_whole(path, path, permitted.most)
+    data = read_whole(path, permitted.most)
     if _BODY.search(data):
         return False
     scene = _scene(path, permitted)

@@ -36,7 +36,7 @@ from satcheck.scene.files.readers import (
 from satcheck.scene.files.reading_children import ReadingChildren, read_in_child
 from satcheck.scene.inspect import errors_of, mesh_file, remeshed, shape_file
 from satcheck.scene.issue import Issue
-from satcheck.scene.opening import LARGE_FILE_BYTES, name_of, open_file, suffix_of
+from satcheck.scene.opening import LARGE_FILE_BYTES, open_file, suffix_of
 from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
@@ -46,16 +46,13 @@ if TYPE_CHECKING:
 _MOST_SEEN = 100_000
 
 
-def bodies_of(file: File, read: Document, split: Split, kind: str) -> Document:
-    """Return the bodies of a file, with each distinct mesh inspected once. read: by its reader,
-    which is of this kind. Raises Refused if nothing can be used."""
-    if split == "none":
-        mesh = mesh_file(file, read.only_mesh or flattened(read))
-        made = Document(items=(Item(mesh),), units=mesh.units)
-    else:
-        made = inspected(file, read, apart=split == "components")
-    name = name_of(file.path)[0] or file.path
-    return replace(made, path=file.path, name=name, kind="scene" if kind == "document" else "mesh")
+def bodies_of(file: File, read: Document, split: Split) -> Document:
+    """Return the bodies of a file, with each distinct mesh inspected once. read: by its reader.
+    Raises Refused if nothing can be used."""
+    if split != "none":
+        return inspected(file, read, apart=split == "components")
+    mesh = mesh_file(file, read.only_mesh or flattened(read))
+    return Document(items=(Item(mesh),), units=mesh.units)
 
 
 class MeshFiles:
@@ -112,7 +109,7 @@ class MeshFiles:
         with _reading(path, location), errors_of(path):
             whole = split == "none"
             reader, file = open_file(path, location, required_reader, self.allowed, whole=whole)
-            return bodies_of(file, self._read(reader, file, Document), split, reader.kind)
+            return bodies_of(file, self._read(reader, file, Document), split)
 
     def _read(self, reader: Reader, file: File, kind: type[Document]) -> Document:
         """In this process, or in the child process, as its reader says. kind: of its documents."""
@@ -217,7 +214,6 @@ class MeshFiles:
     def robot(
         self,
         path: str,
-        location: StrPath,
         packages: Mapping[str, str | Path],
         geometry: GeometryKind,
     ) -> Document:
@@ -227,9 +223,9 @@ class MeshFiles:
         from satcheck.scene.robot.model import RobotDocument
         from satcheck.scene.robot.reading import required_robot_reader
 
-        with _reading(path, location):
-            reader = required_robot_reader(path, location, self.allowed.permitted)
-            folder, name = os.path.split(location)
+        with _reading(path, path):
+            reader = required_robot_reader(path, self.allowed.permitted)
+            folder, name = os.path.split(path)
             file = File(
                 reader.name,
                 folder or os.curdir,

@@ -180,22 +180,22 @@ def size_of(location: StrPath) -> int:
     return status.st_size
 
 
-def read_whole(path: str, location: StrPath, most: Most = OWN_FILE) -> bytes:
+def read_whole(path: StrPath, most: Most = OWN_FILE) -> bytes:
     """The bytes of a text file, without padding; but of TOML as they are, because no mark ends its
     last table, and NUL bytes may stand where more tables were lost. Raises Refused, with the path,
     if it is not a regular file, is too large, or cannot be read."""
     try:
-        data = _read(location, size_of(location), most)
-        note_bytes(location, data)
-        return data if suffix_of(location).lower() == ".toml" else without_padding(data)
+        data = _read(path, size_of(path), most)
+        note_bytes(path, data)
+        return data if suffix_of(path).lower() == ".toml" else without_padding(data)
     except Refused as error:
-        raise Refused(error.code, error.message, file=path) from None
+        raise Refused(error.code, error.message, file=os.fspath(path)) from None
 
 
 def without_padding(data: bytes) -> bytes:
     """Return a text without the NUL bytes that some programs write after its last line; data that
     are no text as they are. NUL bytes within a line may stand where others were lost."""
-    if not data.endswith(b"\0"):
+    if not data.endswith(b"\0") or _BINARY_PLY in data[:_TEXT_HEAD_BYTES]:
         return data
     end = data.index(b"\0")
     is_text = data.endswith(_ENDS, 0, end) and data.count(b"\0", end) == len(data) - end
@@ -229,7 +229,7 @@ def open_file(
     is_stl = _is_binary_stl(data)
     if reader.text == "plain" and not is_stl:
         data = _without_mark(data)
-    if reader.text != "none" and not is_stl and _BINARY_PLY not in data[:_TEXT_HEAD_BYTES]:
+    if reader.text != "none" and not is_stl:
         data = without_padding(data)
     content = _other_content(reader, data, is_stl=is_stl)
     if content is not None:

@@ -56,7 +56,7 @@ def command(
     """
     _, form, document = plain_call({"paths": (str(report),)}, form, output)
     try:
-        content = parse(read_whole(str(report), report).decode())
+        content = parse(read_whole(report).decode())
         with Bar("verdicts", "verifying") as bar:
             result = verify(content, root, bar, allow_outside=allow_outside)
     except UnicodeDecodeError:

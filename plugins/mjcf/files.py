@@ -49,7 +49,7 @@ class ModelFiles:
         if (path, model) in self._read:
             return
         self._read.add((path, model))
-        root = read_tree(path, Path(path), self._places.permitted, *ROOTS, "robot")
+        root = read_tree(path, self._places.permitted, *ROOTS, "robot")
         if len(self._read) > _MOST_FILES:
             root.refuse(f"more than {_MOST_FILES} files", "too-large")
         for element in root.below():

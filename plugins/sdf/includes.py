@@ -32,7 +32,7 @@ class Includes:
         try:
             path = (self._model_file(place) if is_folder(place) else place).as_posix()
             if path not in self._documents:
-                self._documents[path] = read_tree(path, Path(path), self._places.permitted, *ROOTS)
+                self._documents[path] = read_tree(path, self._places.permitted, *ROOTS)
         except Refused as error:
             raise Refused(error.code, str(error)) from None
         return self._documents[path]
@@ -41,7 +41,7 @@ class Includes:
         """The file of the highest version that the manifest of a model names."""
         manifests = [folder / manifest for manifest in MODEL_MANIFESTS]
         manifest = manifests[0] if is_file(manifests[0]) else manifests[1]
-        root = read_tree(manifest.as_posix(), manifest, self._places.permitted, "model")
+        root = read_tree(manifest.as_posix(), self._places.permitted, "model")
         files = root.all("sdf") or [root.need("sdf")]
         newest = max(files, key=lambda element: version_of(element, (0,)))
         name = newest.text or newest.refuse("is empty")

@@ -43,7 +43,7 @@ def read_sdf(file: File) -> RobotDocument:
     Links and joints have their paths as names. Raises Refused with the file, the line and the
     element. No mesh is opened.
     """
-    root = read_tree(file.path, file.location, file.permitted)
+    root = read_tree(file.path, file.permitted)
     slips = Slips(file.options["geometry"])
     places = FilePlaces(file.path, file.packages, file.permitted)
     contents = Contents(Includes(places), slips)

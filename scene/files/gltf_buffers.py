@@ -356,7 +356,7 @@ class Accessors:
         name = unquote(uri)
         if ":" in uri or "\\" in name:
             raise Refused("outside-path", f"buffer {name!r} is not a relative path: refused")
-        with self._context.open(f"buffer file {name!r}", name) as (file, there):
+        with self._context.open("buffer file", name) as (file, there):
             size = min(size, there)
             self.work.spend(size)
             return read_file(file.fileno(), size)

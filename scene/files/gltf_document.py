@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Annotated, Any, ClassVar, Generic, Literal, NoReturn, TypeVar
 
 import msgspec
@@ -409,10 +409,17 @@ _LISTS = {
 }
 
 
-def _look(given: Any, kind: str, place: str, unknown: UnknownNames) -> None:
-    """Gather the names that nobody knows of an object and of the objects in it."""
-    if not isinstance(given, dict) or _PLAIN.get(kind, _NOTHING).issuperset(given):
-        return
+def _look(objects: Iterable[Any], kind: str, place: str, unknown: UnknownNames) -> None:
+    """Gather the names that nobody knows of these objects and of the objects in them. place: of
+    each, "" in a list of the document."""
+    plain = _PLAIN.get(kind, _NOTHING)
+    for number, given in enumerate(objects):
+        if isinstance(given, dict) and not plain.issuperset(given):
+            _look_into(given, kind, place or f"{kind} {number}", unknown)
+
+
+def _look_into(given: dict[str, Any], kind: str, place: str, unknown: UnknownNames) -> None:
+    """As `_look` does, for one object."""
     if kind in PLACES:
         unknown.look(PLACES[kind], given, kind, place)
     if "extensions" in given:
@@ -421,12 +428,11 @@ def _look(given: Any, kind: str, place: str, unknown: UnknownNames) -> None:
         names = EXTENSIONS_OF.get(kind, _extensions())
         unknown.look(names, extensions.keys(), f"extension of {kind}", place)
         for name in PLACES.keys() & extensions.keys():
-            _look(extensions[name], name, f"{place}: {name}", unknown)
+            _look([extensions[name]], name, f"{place}: {name}", unknown)
     for key, inner, said in _INSIDE.get(kind, ()):
         if key in given:
             value = given[key]
-            for each in value if isinstance(value, list) else [value]:
-                _look(each, inner, place + said, unknown)
+            _look(value if isinstance(value, list) else [value], inner, place + said, unknown)
 
 
 def read_document(data: memoryview, unknown: UnknownNames) -> GltfDocument:
@@ -451,11 +457,11 @@ def read_document(data: memoryview, unknown: UnknownNames) -> GltfDocument:
             raise Refused("unsupported-feature", f"extension {name!r} is not read")
     declared = list(dict.fromkeys((*stated.extensions_used, *stated.extensions_required)))
     unknown.look(EXTENSIONS, declared, "extension", "the file uses an extension")
-    _look(tree, "file", "the file", unknown)
-    _look(tree["asset"], "asset", "the asset", unknown)
+    _look([tree], "file", "the file", unknown)
+    _look([tree["asset"]], "asset", "the asset", unknown)
     for key, kind in _LISTS.items():
-        for number, each in enumerate(tree.get(key, ())):
-            _look(each, kind, f"{kind} {number}", unknown)
+        if key in tree:
+            _look(tree[key], kind, "", unknown)
     return document
 
 

@@ -204,7 +204,7 @@ def _name_in_manifest(folder: Path, most: Most) -> str | None:
     the folder counts."""
     place = folder / _PACKAGE_XML
     try:
-        root = read_elements(read_whole(str(place), place, most))
+        root = read_elements(read_whole(place, most))
     except Refused:
         return None
     name = root.find("name") if root.tag == "package" else None

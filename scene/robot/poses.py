@@ -12,7 +12,6 @@ import json
 import math
 import random
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -71,7 +70,7 @@ def read_path(file: str) -> list[Pose]:
 
 def _text(path: str) -> str:
     try:
-        return read_whole(path, Path(path)).decode("utf-8-sig")
+        return read_whole(path).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise SatcheckError("bad-encoding", "the file of poses is not UTF-8", file=path) from None
     except SatcheckError as error:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from typing import NoReturn
 
-from satcheck.scene.access import Permitted, StrPath
+from satcheck.scene.access import Permitted
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import Reader, reader_of_robot, robot_reader, robots
 from satcheck.scene.files.xml_tree import (
@@ -36,22 +36,22 @@ _AMPERSAND = re.compile(rb"&(?!(?:[A-Za-z_:][\w:.-]*|#[0-9]+|#x[0-9A-Fa-f]+);)")
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
-def required_robot_reader(path: str, location: StrPath, permitted: Permitted) -> Reader:
-    """Return the reader of a robot, which its outermost element decides. path: of the file, for
-    messages; location: where it lies. Raises Refused if there is none."""
-    reader = reader_of_robot(location)
+def required_robot_reader(path: str, permitted: Permitted) -> Reader:
+    """Return the reader of a robot, which its outermost element decides. Raises Refused if there is
+    none."""
+    reader = reader_of_robot(path)
     if reader is not None:
         return reader
-    root = read_tree(path, location, permitted)  # a slip may stand before the element
+    root = read_tree(path, permitted)  # a slip may stand before the element
     return robot_reader(root.tag) or _refuse_root(root, robots())
 
 
-def read_tree(path: str, location: StrPath, permitted: Permitted, *roots: str) -> Element:
+def read_tree(path: str, permitted: Permitted, *roots: str) -> Element:
     """Return the outermost element, whose tag has to be one of `roots`, if there are any.
 
     Text between elements is ignored. Raises Refused, with the line.
     """
-    document, _ = parsed(path, read_whole(path, location, permitted.most_of_tree))
+    document, _ = parsed(path, read_whole(path, permitted.most_of_tree))
     if roots and document.tag not in roots:
         _refuse_root(document, roots)
     _refuse_macros(document)

@@ -5,8 +5,6 @@ The format: http://wiki.ros.org/srdf.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from msgspec import Struct
 
 from satcheck.scene.access import NOTHING_ELSE, Permitted
@@ -78,9 +76,9 @@ class Srdf(Struct, frozen=True):
         return None
 
 
-def read_srdf(path: str, location: Path, permitted: Permitted = NOTHING_ELSE) -> Srdf:
+def read_srdf(path: str, permitted: Permitted = NOTHING_ELSE) -> Srdf:
     """permitted: how large it may be. Raises Refused with the file, the line and the element."""
-    root = read_tree(path, location, permitted, "robot")
+    root = read_tree(path, permitted, "robot")
     slips = Slips()
     slips.look(root, ROBOT)
     disabled = {_pair(e): e.attributes.get("reason", "") for e in root.all("disable_collisions")}

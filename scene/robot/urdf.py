@@ -61,7 +61,7 @@ _Joints = Sequence[tuple[Joint, Element]]
 def read_urdf(file: File) -> RobotDocument:
     """Return the robot, and warnings. Raises Refused with the file, the line and the element. No
     mesh is opened."""
-    root = read_tree(file.path, file.location, file.permitted)
+    root = read_tree(file.path, file.permitted)
     slips = Slips(file.options["geometry"])
     slips.look(root, ROBOT)
     links: dict[str, Link] = {}

@@ -11,7 +11,6 @@ import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 from msgspec.structs import replace
@@ -24,7 +23,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.readers import mesh_endings, mesh_reader
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.motion import Motion
-from satcheck.scene.opening import suffix_of
+from satcheck.scene.opening import name_of, suffix_of
 from satcheck.scene.rules import Rule, RuleKeys
 from satcheck.scene.scene_file import document
 from satcheck.scene.scene_file.document import SCENE_1
@@ -45,13 +44,12 @@ _OF_SCENE = {*document.Scene.__struct_encode_fields__}
 _INNER = {"bodies": list, "rules": list, "motion": list, "statics": dict, "reading": dict}
 
 
-def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
+def read_scene_file(path: str, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
     """Reads and checks a scene file. One with rules and without bodies is a file of rules.
 
-    path: for messages; location: where it lies. permitted: where the meshes of a scene of the form
-    satcheck.scene/1 may lie. Raises Refused.
+    permitted: where the meshes of a scene of the form satcheck.scene/1 may lie. Raises Refused.
     """
-    text = SceneText(path, location, permitted.most)
+    text = SceneText(path, permitted.most)
     values, schema = text.document, _schema_of(text)
     if schema == SIMPLE and not text.is_toml:
         from satcheck.scene.scene_file.simple import read_scene
@@ -66,10 +64,10 @@ def read_scene_file(path: str, location: Path, permitted: Permitted = NOTHING_EL
     return _read(text, permitted, document.Scene)
 
 
-def read_rules_file(path: str, location: Path, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
+def read_rules_file(path: str, permitted: Permitted = NOTHING_ELSE) -> SceneFile:
     """Reads and checks a file of rules, which has the keys of satcheck.scene/1 but for those about
-    bodies; `schema` may be left out. path, location: as above. Raises Refused."""
-    text = SceneText(path, location, permitted.most)
+    bodies; `schema` may be left out. permitted: how large it may be. Raises Refused."""
+    text = SceneText(path, permitted.most)
     schema = _schema_of(text)
     if not isinstance(text.document, dict) or schema not in (None, SCENE_1):
         raise _not_a_scene(text, schema)
@@ -108,7 +106,7 @@ def _read(text: SceneText, permitted: Permitted, kind: type[document.RulesFile])
     outer = {key: _INNER[key]() if key in inner else value for key, value in values.items()}
     with text.at():
         top = converted(outer, kind)
-    places = mesh_places(path, text.location, permitted)
+    places = mesh_places(path, permitted)
     ids: set[str] = set()
     moved: dict[str, int] = {}
     count = len(values["rules"]) if "rules" in inner else 0
@@ -165,7 +163,7 @@ def scene_file(
     issues, more: of its form."""
     return SceneFile(
         path=text.path,
-        name=top.name or text.location.stem,
+        name=top.name or name_of(text.path)[0],
         kind="scene" if bodies else "rules",
         units=top.units,
         items=tuple(bodies),
@@ -215,14 +213,13 @@ def add_id(id_: str, ids: set[str]) -> None:
     ids.add(id_)
 
 
-def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
+def mesh_places(path: str, permitted: Permitted) -> Places:
     """Return what finds the mesh files of one scene file, and raises Wrong for one that is missing
     or may not be opened. Each is checked once, even if many bodies use it.
 
-    path: of the scene file, for messages; location: on disk. permitted: where meshes may lie beside
-    its folder.
+    path: of the scene file. permitted: where meshes may lie beside its folder.
     """
-    context, folder = Context(location.parent, permitted), os.path.dirname(path)  # noqa: PTH120
+    context = Context(os.path.dirname(path) or os.curdir, permitted)  # noqa: PTH120
 
     @cache
     def found(mesh: str, part: str | None) -> FilePart:
@@ -232,11 +229,10 @@ def mesh_places(path: str, location: Path, permitted: Permitted) -> Places:
             message = f"mesh path {shown(mesh)} names no mesh format ({mesh_endings()}): refused"
             raise Wrong(message, "mesh", code="unsupported-format")
         try:
-            place = context.find(f"mesh file {shown(mesh)}", mesh)
+            place = context.find("mesh file", mesh)
         except Refused as error:
             raise Wrong(error.message, "mesh", code=error.code) from None
-        name = os.path.normpath(os.path.join(folder, mesh))  # noqa: PTH118
-        return FilePart(name.replace(os.sep, "/"), place)
+        return FilePart(os.path.normpath(place).replace(os.sep, "/"), place)
 
     return found
 

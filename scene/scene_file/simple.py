@@ -53,7 +53,7 @@ class Scene(Table, frozen=True, forbid_unknown_fields=False):
 def read_scene(text: SceneText) -> SceneFile:
     """Raises Refused with all errors of the file."""
     values, known = text.document, frozenset(Scene.__struct_fields__)
-    places = mesh_places(text.path, text.location, ANYWHERE)
+    places = mesh_places(text.path, ANYWHERE)
     ids: set[str] = set()
     issues: list[Issue] = []
 

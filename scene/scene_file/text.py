@@ -13,16 +13,15 @@ from codecs import BOM_UTF8
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
-from pathlib import Path
 from typing import Any, TypeVar
 
 import tomli
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.access import OWN_FILE, Most
+from satcheck.scene.access import OWN_FILE, Most, StrPath
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.limits import MAX_DEPTH
-from satcheck.scene.opening import read_whole
+from satcheck.scene.opening import read_whole, suffix_of
 from satcheck.scene.table import Keys, Wrong
 from satcheck.scene.words import why_unreadable
 
@@ -55,15 +54,13 @@ _TOML = re.compile(
 class SceneText:
     """A scene file that is well-formed, and what is wrong in it.
 
-    path: for messages. location: where it lies. text: as it stands there. document: its values.
-    Raises Refused.
+    path: as given. text: as it stands there. document: its values. Raises Refused.
     """
 
-    def __init__(self, path: str, location: Path, most: Most = OWN_FILE) -> None:
+    def __init__(self, path: str, most: Most = OWN_FILE) -> None:
         self.path = path
-        self.location = location
-        self.is_toml = is_toml(location)
-        self.text = read_text(path, location, most)
+        self.is_toml = is_toml(path)
+        self.text = read_text(path, most)
         self._wrong: list[Wrong] = []
         if self.is_toml:
             self.document: Any = read_toml(path, self.text)
@@ -156,13 +153,13 @@ def dotted(keys: Keys) -> str:
     return text.removeprefix(".")
 
 
-def is_toml(location: Path) -> bool:
-    return location.suffix.lower() == ".toml"
+def is_toml(path: StrPath) -> bool:
+    return suffix_of(path).lower() == ".toml"
 
 
-def read_text(path: str, location: Path, most: Most = OWN_FILE) -> str:
-    """Raises Refused. path: for messages."""
-    data = read_whole(path, location, most)
+def read_text(path: str, most: Most = OWN_FILE) -> str:
+    """Raises Refused."""
+    data = read_whole(path, most)
     try:
         return data.removeprefix(BOM_UTF8).decode()  # line ends as they are
     except UnicodeDecodeError:
@@ -172,7 +169,7 @@ def read_text(path: str, location: Path, most: Most = OWN_FILE) -> str:
 def _parsed(text: str) -> dict[str, Any]:
     """Raises ValueError for text that is not TOML, and for a key of many parts: the parser takes
     time and memory by the square of their number."""
-    dotted = (line for line in text.split("\n") if line.count(".") >= MAX_DEPTH)
+    dotted = [line for line in text.split("\n") if line.count(".") >= MAX_DEPTH]
     if any(map(_LONG_KEY.search, dotted)):
         raise ValueError(f"a key has more than {MAX_DEPTH} parts")
     return tomli.loads(text)

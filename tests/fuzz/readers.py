@@ -73,7 +73,7 @@ _MODELS = MeshFiles()  # one child process for all files
 def read_model(path: Path) -> None:
     """MuJoCo works in a child process. One that it loses is a fault."""
     try:
-        _MODELS.robot(str(path), path, {}, "collision")
+        _MODELS.robot(str(path), {}, "collision")
     except Refused as error:
         if error.code == "reader-failed":
             raise RuntimeError(error.message) from error

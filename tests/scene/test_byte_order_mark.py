@@ -110,7 +110,7 @@ def test_what_goes_with_a_robot(tmp_path):
 
     path = tmp_path / "arm.srdf"
     path.write_bytes(codecs.BOM_UTF8 + b'<robot name="r"/>')
-    assert read_srdf(str(path), path).robot == "r"
+    assert read_srdf(str(path)).robot == "r"
 
 
 @pytest.mark.parametrize("name", TEXTS)

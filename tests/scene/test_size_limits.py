@@ -97,7 +97,7 @@ def test_a_file_that_grows_after_its_size_was_looked_up(tmp_path, monkeypatch):
     monkeypatch.setattr("satcheck.scene.opening.size_of", lambda _: 0)
     path = grown(tmp_path / "a.txt", 2)
     with pytest.raises(Refused, match=ADVICE):
-        read_whole("a.txt", path, Permitted(megabytes=4).most)
+        read_whole(path, Permitted(megabytes=4).most)
 
 
 def test_a_named_file_is_opened_with_its_size(tmp_path):

@@ -194,7 +194,7 @@ def _project_of(file: str) -> str | None:
     """The GlobalId of the project of an IFC file; None: the file is not there any more, or names no
     project."""
     try:
-        match = _PROJECT.search(unpacked(memoryview(read_whole(file, file)), OWN_FILE))
+        match = _PROJECT.search(unpacked(memoryview(read_whole(file)), OWN_FILE))
     except Refused:
         return None
     return match[1].decode("ascii", "replace") if match else None

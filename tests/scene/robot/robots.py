@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import chdir
 from pathlib import Path
 
 import pytest
@@ -40,10 +41,10 @@ def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str =
 def read_robot(
     location: Path, path: str | None = None, geometry: GeometryKind = "collision"
 ) -> tuple[Robot, tuple[Issue, ...]]:
-    """The robot of a file of any format, and the issues of its reader. path: its name in
-    messages."""
-    name = path or str(location)
-    document = MeshFiles().robot(name, location, {}, geometry)
+    """The robot of a file of any format, and the issues of its reader. path: from its folder
+    on."""
+    with chdir(location.parent):
+        document = MeshFiles().robot(path or str(location), {}, geometry)
     assert document.robot is not None
     return document.robot, tuple(
         issue for issue in document.issues if issue.code != "no-collision-geometry"

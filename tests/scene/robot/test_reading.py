@@ -42,7 +42,7 @@ def test_what_is_no_robot(tmp_path: Path, text: str, code: str) -> None:
 def test_an_ampersand_that_begins_no_reference_stands_for_itself(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf"
     path.write_text('<robot name="nuts & bolts">\n<link name="a&amp;b&#33;"/>&\n<link/></robot>')
-    root = read_tree("r.urdf", path, NOTHING_ELSE, "robot")
+    root = read_tree(str(path), NOTHING_ELSE, "robot")
     assert root.attributes["name"] == "nuts & bolts"
     first, second = root.children
     assert (first.attributes["name"], first.line, second.line) == ("a&b!", 2, 3)
@@ -52,6 +52,6 @@ def test_an_ampersand_that_begins_no_reference_stands_for_itself(tmp_path: Path)
 @pytest.mark.parametrize(("name", "code"), [("gone", "file-not-found"), ("", "not-a-file")])
 def test_what_is_no_file(tmp_path: Path, name: str, code: str) -> None:
     with pytest.raises(Refused) as caught:
-        read_tree("r.urdf", tmp_path / name, NOTHING_ELSE, "robot")
+        read_tree(str(tmp_path / name), NOTHING_ELSE, "robot")
     assert caught.value.code == code
-    assert caught.value.file == "r.urdf"
+    assert caught.value.file == str(tmp_path / name)

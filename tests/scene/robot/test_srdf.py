@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import chdir
 from pathlib import Path
 
 import pytest
@@ -14,11 +15,12 @@ from tests.scene.robot.robots import SAMPLES, joint, link, robot_of
 def read(folder: Path, *elements: str) -> Srdf:
     path = folder / "r.srdf"
     path.write_text("\n".join(['<robot name="r">', *elements, "</robot>"]))
-    return read_srdf("r.srdf", path)
+    with chdir(folder):
+        return read_srdf(path.name)
 
 
 def test_the_sample() -> None:
-    srdf = read_srdf("arm.srdf", SAMPLES / "arm.srdf")
+    srdf = read_srdf(str(SAMPLES / "arm.srdf"))
     assert srdf.robot == "arm"
     assert srdf.permission("turret", "base") == "SRDF: Adjacent"
     assert srdf.permission("base", "fore") is None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+from contextlib import chdir
 from pathlib import Path
 from typing import Any
 
@@ -97,7 +98,8 @@ def write(folder: Path, document: Any, form: str = "json", name: str = "cell") -
 
 def read(folder: Path, document: Any, form: str = "json", **options: Any) -> SceneFile:
     path = write(folder, document, form)
-    return read_scene_file(path.name, path, **options)
+    with chdir(folder):
+        return read_scene_file(path.name, **options)
 
 
 def errors(folder: Path, document: Any, form: str = "json") -> list[SatcheckError]:
