@@ -210,7 +210,7 @@ class Draft(Struct, eq=False):
         if gap is not None and gap.distance is None:
             gap = None
         figure = gap if depth is None else depth  # a pair has at most one of them
-        depths = None if depth is None else self.depth_bounds
+        depths = self.depth_bounds
         gaps = None
         if gap is not None and (pair.closer > 0 or not gap.exact):
             gaps = gap.lower, gap.upper
@@ -235,7 +235,7 @@ class Draft(Struct, eq=False):
             mtv_verified=None if depth is None else depth.escape.verified,
             witness=None if figure is None else figure.witness,
             thickness=None if thick is None else thick.upper,
-            thickness_bounds=None if thick is None else self.thickness_bounds,
+            thickness_bounds=self.thickness_bounds,
             ball=None if thick is None else thick.ball,
             volume=self.volume,
             volume_error=self.volume_error,

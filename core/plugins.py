@@ -17,7 +17,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
-from msgspec import Struct
+from msgspec import Struct, convert
+from msgspec.structs import asdict
 
 if TYPE_CHECKING:
     from importlib.metadata import Distribution
@@ -121,6 +122,8 @@ def _loaded(point: Any, kinds: tuple[type[Any], ...]) -> Any:
         found = point.load()
         if not isinstance(found, kinds):
             raise TypeError(f"{type(found).__name__} is not what registers there")
+        if isinstance(found, Struct):
+            convert(asdict(found), type(found))  # the types of its fields
         return found
     except Exception as error:  # noqa: BLE001  a package of others: anything may happen
         return Failure(point.value, f"{type(error).__name__}: {error}")

@@ -22,6 +22,7 @@ from msgspec import Struct, field
 
 from satcheck.scene.errors import Refused
 from satcheck.scene.files.limits import BYTES_PER_MEGABYTE
+from satcheck.scene.words import quoted
 
 StrPath = str | os.PathLike[str]
 
@@ -212,23 +213,23 @@ class Context:
     def find(self, noun: str, name: str) -> str:
         """Return where a file lies that is named. noun: what it is. Raises Refused."""
         if "\0" in name:
-            raise Refused("bad-record", f"the path of {noun} {name!r} holds a NUL character")
+            raise Refused("bad-record", f"the path of {noun} {quoted(name)} holds a NUL character")
         # As `Path` joins them, which takes long.
         is_tidy = "./" not in name and "//" not in name
         place = os.path.join(self._start, name) if is_tidy else str(Path(self._folder, name))  # noqa: PTH118
         note(place)
         is_plain = _is_plain_file(place)
         if not self.permits(place, is_plain=is_plain):
-            raise self.refusal(f"{noun} {name!r}")
+            raise self.refusal(f"{noun} {quoted(name)}")
         if is_plain or os.path.isfile(place):  # noqa: PTH113
             return place
-        what = f"{noun} {name!r}"
+        what = f"{noun} {quoted(name)}"
         raise no_file(place, f"{what} ") or Refused("missing-resource", f"{what} is missing")
 
     @contextmanager
     def open(self, noun: str, name: str) -> Iterator[tuple[FileIO, int]]:
         """Open such a file, and yield it with its size. Raises Refused, also while it is read."""
-        place, what = self.find(noun, name), f"{noun} {name!r}"
+        place, what = self.find(noun, name), f"{noun} {quoted(name)}"
         try:
             with FileIO(place) as file:
                 size = os.fstat(file.fileno()).st_size

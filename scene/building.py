@@ -84,7 +84,7 @@ class SceneBuilder:
         self._inputs: list[Input] = []
         self._rule_files: set[str] = set()
         self._parted: set[str] = set()  # files of which a part is named
-        # What is known of a mesh that a file names, by its unit there and that of the document.
+        # What is known of a mesh that an item names, by the unit of the item and of its document.
         self._named: dict[tuple[FilePart, str | None, str | None], tuple[Item, float]] = {}
         self._entries: dict[str, Entry] = {}
         self._srdfs: list[Srdf] = []

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 _SHOWN = 5  # of a long list
+_LONGEST_PATH = 200  # characters in a message
 
 
 def meant(word: str, known: Iterable[str], form: str = " (did you mean {}?)") -> str:
@@ -36,6 +37,11 @@ def why_unreadable(error: Exception) -> str:
     how a program may read it, which is no advice for a user."""
     long = "int_max_str_digits" in str(error)
     return f"a number of more than {sys.get_int_max_str_digits()} digits" if long else str(error)
+
+
+def quoted(text: str, most: int = _LONGEST_PATH) -> str:
+    """Return the text between quotes, with at most so many of its characters."""
+    return repr(text if len(text) <= most else text[:most] + "...")
 
 
 def listed(names: Sequence[str]) -> str:

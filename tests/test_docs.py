@@ -74,7 +74,7 @@ def run(arguments: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, *arguments],
         cwd=folder,
-        env=dict(os.environ, PYTHONIOENCODING="utf-8", COLUMNS="120"),
+        env=dict(os.environ, PYTHONIOENCODING="utf-8", COLUMNS="120", SATCHECK_CACHE="off"),
         encoding="utf-8",
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -224,7 +224,10 @@ def rungs_of(climb: core.Climb) -> list[Stage]:
     if boxes or (hulls is None and triangles is None):  # else the climb began above them
         rungs.append(_world_boxes(climb.box_gap, cost[0] / 1000.0))
     if boxes:
-        result, detail = _OBB.get(boxes) or ("separated", _separating_axis(*climb.box_axis))
+        if boxes == "apart":
+            result, detail = "separated", _separating_axis(*climb.box_axis)
+        else:
+            result, detail = _OBB[boxes]
         rungs.append(Stage("obb", result, cost[1] / 1000.0, detail))
     if hulls is not None:
         rungs.append(Stage("hull", *_hulls(climb, hulls, cost[2] / 1000.0)))

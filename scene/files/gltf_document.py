@@ -410,8 +410,8 @@ _LISTS = {
 
 
 def _look(objects: Iterable[Any], kind: str, place: str, unknown: UnknownNames) -> None:
-    """Gather the names that nobody knows of these objects and of the objects in them. place: of
-    each, "" in a list of the document."""
+    """Gather the names that nobody knows of these objects and of the objects in them. place: where
+    they stand; "": in a list of the document, of which each is named by its kind and number."""
     plain = _PLAIN.get(kind, _NOTHING)
     for number, given in enumerate(objects):
         if isinstance(given, dict) and not plain.issuperset(given):

@@ -16,7 +16,7 @@ from satcheck.scene.rules import SEVERITIES, Selector
 from satcheck.scene.scene_file.document import Choices, Rotation, Waypoint
 from satcheck.scene.table import LARGEST, Key, Keys, Wrong
 from satcheck.scene.units import parse_length
-from satcheck.scene.words import meant
+from satcheck.scene.words import meant, quoted
 
 T = TypeVar("T")
 
@@ -137,7 +137,7 @@ def _wanted(what: str, choices: Iterable[str]) -> str:
 def shown(value: Any) -> str:
     """A short text for the value, for messages."""
     if isinstance(value, str):
-        return repr(value if len(value) <= _MOST_SHOWN else value[:_MOST_SHOWN] + "...")
+        return quoted(value, _MOST_SHOWN)
     if isinstance(value, bool):
         return "true" if value else "false"
     if value is None:

@@ -109,8 +109,13 @@ def test_its_command_is_one_of_satcheck(tmp_path: Path, env: dict[str, str]) -> 
     assert satcheck("corners", "a.tetra", cwd=tmp_path).code == 2
 
 
-def test_a_package_that_fails_is_named_and_harms_nobody(tmp_path: Path) -> None:
-    env = install(tmp_path / "broken", "[satcheck.readers]\nbad = tetra:NOTHING\n")
+@pytest.mark.parametrize(("name", "why"), [("NOTHING", "no attribute"), ("SHIFTED", "$.title")])
+def test_a_package_that_fails_is_named_and_harms_nobody(
+    name: str, why: str, tmp_path: Path
+) -> None:
+    env = install(tmp_path / "broken", f"[satcheck.readers]\nbad = tetra:{name}\n")
+    with (tmp_path / "broken" / "tetra.py").open("a") as module:
+        module.write('SHIFTED = Reader("tetra", 5, "TETRA", ".tetra")\n')
     (tmp_path / "a.tetra").write_text(UNIT)
     (tmp_path / "a.obj").write_text(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -119,7 +124,8 @@ def test_a_package_that_fails_is_named_and_harms_nobody(tmp_path: Path) -> None:
     assert ran.code == 2
     relations = {finding["relation"] for finding in ran.document["findings"]}
     assert relations == {"coincident", "indeterminate"}
-    assert "tetra:NOTHING cannot be loaded" in ran.err
+    assert f"tetra:{name} cannot be loaded" in ran.err
+    assert why in ran.err
 
 
 def test_a_reader_that_is_not_complete_says_so_of_a_whole_file(

@@ -9,11 +9,12 @@
 
 namespace satcheck {
 
-// Empty if it takes too many rounds, or if the hulls may touch. Neither set is empty. largest: the largest |coordinate|.
+// Empty if it takes too many rounds, or if rounding hides whether the hulls touch. Neither set is empty. largest: the
+// largest |coordinate|. budget: is polled, and pays nothing.
 //
-// Query::depth: what check_pair() says of the hulls, with bounds as close. Query::distance: the outcome, and for separate
-// sets bounds of the distance of their hulls. The lower bound is proven against every point, and usually within a
-// hundredth of the distance. budget: is polled, and pays nothing.
+// Query::depth: what check_pair() says of the hulls, with bounds as close. Query::distance: `separated` with bounds of the
+// distance, of which the lower one is proven against every point, and usually within a hundredth of the distance; any
+// other outcome says only that the hulls meet.
 std::optional<PairResult> check_hulls_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest, Query query,
                                          const Budget* budget = nullptr);
 
