@@ -121,7 +121,7 @@ std::optional<Triple> corner(const std::optional<Vec3>& point) {
 std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing_of(const Climb& climb) {
   if (!climb.triangles) return {};
   const std::uint32_t a = climb.triangles->triangle_a, b = climb.triangles->triangle_b;
-  if (a == kNoTriangle || b == kNoTriangle) return {};
+  if (a == kNoIndex || b == kNoIndex) return {};
   return std::pair(a, b);
 }
 

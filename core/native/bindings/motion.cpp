@@ -47,12 +47,12 @@ MotionAnswer ask(const MovingBody& a, const Moving& moving_a, const MovingBody& 
   return ask_motion(a, moving_a, b, moving_b, question, {pad, slack}, work);
 }
 
-std::int64_t index_or_minus_one(std::uint32_t triangle) { return triangle == kNoTriangle ? -1 : std::int64_t{triangle}; }
+std::int64_t index_or_minus_one(std::uint32_t triangle) { return triangle == kNoIndex ? -1 : std::int64_t{triangle}; }
 
 using Matrices = nb::ndarray<const double, nb::shape<-1, -1, 12>, nb::c_contig, nb::device::cpu>;
 using Margins = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
 using Matrix12 = nb::ndarray<const double, nb::shape<12>, nb::c_contig, nb::device::cpu>;
-using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
+using SiftedTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
 using DeepTuple = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, double>;
 using Sifting = std::vector<Sifted>;
 
@@ -64,7 +64,7 @@ std::vector<PosedBody*> bodies_of(const nb::tuple& held, const Matrices& matrice
 }
 
 std::pair<nb::object, std::uint64_t> sift_all(const nb::typed<nb::sequence, PosedBody>& given,
-                                              const std::vector<PairTuple>& pairs, const Matrices& matrices,
+                                              const std::vector<SiftedTuple>& pairs, const Matrices& matrices,
                                               unsigned threads, const std::optional<Margins>& margins,
                                               std::uint64_t steps) {
   const nb::tuple held(given);

@@ -78,7 +78,7 @@ nb::object optional_vector(const PairResult& r, Vec3 v) {
   return r.has_distance ? nb::object(nb::make_tuple(v.x, v.y, v.z)) : nb::none();
 }
 std::int64_t index_or_minus_one(std::uint32_t index) {
-  return index == Shape::kNoIndex ? -1 : static_cast<std::int64_t>(index);
+  return index == kNoIndex ? -1 : static_cast<std::int64_t>(index);
 }
 
 constexpr const char* kPairResultDoc = R"(The result of one convex pair. World frame, units of the shapes.

@@ -101,7 +101,7 @@ other, and a line is given by its coordinates along both.)");
 }
 
 std::int64_t triangle_number(std::uint32_t triangle) {
-  return triangle == kNoTriangle ? -1 : static_cast<std::int64_t>(triangle);
+  return triangle == kNoIndex ? -1 : static_cast<std::int64_t>(triangle);
 }
 
 void bind_mesh_relation(nb::module_& m) {

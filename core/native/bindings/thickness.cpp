@@ -39,7 +39,7 @@ std::pair<std::optional<const char*>, std::uint64_t> counted_fit(const Surface& 
   return {name_of(fit), budget.spent()};
 }
 
-ThicknessInterval checked_search(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
+ThicknessInterval checked_thickness(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
                                  double less_b, std::optional<double> limit, int across, bool prove,
                                  const OverlapComponent* within, unsigned threads, Progress progress) {
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
@@ -105,7 +105,7 @@ nanosecond, do not decide that. The number is of the steps that it took. Swappin
         R"(Whether two solids are free of each other when each vertex moves into its body, by most_a or most_b at most. No point
 is then deeper than that in both, and no point of one surface is deeper in the other body than the sum of both. False: not found.
 Swapping a and b with their lengths changes nothing. ValueError for a surface that is not a solid.)");
-  m.def("search_thickness", &checked_search, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
+  m.def("search_thickness", &checked_thickness, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
         "less_b"_a = 0.0, "limit"_a = nb::none(), "across"_a = -1, "prove"_a = false, "within"_a.none() = nb::none(), "threads"_a = 1,
         "progress"_a.none() = nb::none(), nb::call_guard<nb::gil_scoped_release>(),
         R"(The diameter of the largest ball inside both of two solids as a proven interval, at most `width` wide relative to its

@@ -22,7 +22,7 @@ constexpr std::size_t kManyPieces = 200;
 constexpr double kBeyond[] = {0.06, 0.0, 0.4};
 constexpr double kFarthest = 0.4;
 // What is computed about places of points is off by less than this many roundoffs of the scale.
-constexpr double kRoundoffs = 1024;
+constexpr double kPlaceRoundoffs = 1024;
 
 // low, high: along the axes.
 struct Placed {
@@ -44,7 +44,7 @@ class Proof {
     for (const Surface* surface : surfaces_) {
       scale_ = larger(scale_, surface->bvh.nodes[0].box.largest_coordinate());
     }
-    rounding_ = kRoundoffs * kUnitRoundoff * scale_;
+    rounding_ = kPlaceRoundoffs * kUnitRoundoff * scale_;
     find_axes();
     place_triangles();
   }

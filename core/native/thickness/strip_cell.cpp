@@ -17,16 +17,16 @@ constexpr std::uint64_t kPieceWork = 30, kBoxWork = 200;
 // Strips of one region; more are divided.
 constexpr std::size_t kMostStrips = 5;
 // Boxes of heights that are looked at in a region.
-constexpr int kMostBoxes = 4000;
+constexpr int kMostHeights = 4000;
 // A clipped corner, and what is computed about a region, is off by less than this many roundoffs of the scale.
-constexpr double kRoundoffs = 256;
+constexpr double kClippedRoundoffs = 256;
 // Planes whose normals are this close to a common plane, or to each other, have no certain intersection.
 constexpr double kFlatCorner = 1e-4;
 constexpr double kParallel = 0.999;
 // Ways against a strip are at least this steep. Normals and ways are off by a few roundoffs, and a way that is as flat as
 // that by 1e4 times as many, relative to its length: rounded up.
 constexpr double kFlattest = 1e-4;
-constexpr double kSlack = 1e-11;
+constexpr double kWaySlack = 1e-11;
 
 DoubleDouble exact_product(double a, double b) {
   const double product = a * b;
@@ -67,7 +67,8 @@ struct Strip {
 class Region {
  public:
   Region(const Surface& a, const Surface& b, const StripRegion& region, const std::vector<StripPiece>& pieces, double half, double scale, Budget& budget)
-      : surfaces_{&a, &b}, region_(region), pieces_(pieces), budget_(budget), half_(half), enough_(half * (1 - kSlack)), rounding_(kRoundoffs * kUnitRoundoff * scale) {
+      : surfaces_{&a, &b}, region_(region), pieces_(pieces), budget_(budget), half_(half), enough_(half * (1 - kWaySlack)),
+        rounding_(kClippedRoundoffs * kUnitRoundoff * scale) {
     for (int axis = 0; axis < 3; ++axis) middle_ = middle_ + region.axes.row[axis] * ((region.low[static_cast<std::size_t>(axis)] + region.high[static_cast<std::size_t>(axis)]) / 2);
   }
 
@@ -207,7 +208,7 @@ class Region {
 
   bool is_deep_in(int body, Vec3 p) const {
     if (!is_inside(body, p)) return false;
-    const double least = half_ * (1 + kSlack), near = least + rounding_;
+    const double least = half_ * (1 + kWaySlack), near = least + rounding_;
     const Surface& of = surface(body);
     bool deep = true;
     const Vec3 wide = Vec3{1, 1, 1} * (near + rounding_);
@@ -400,7 +401,7 @@ class Region {
   using Heights = std::array<Range, kMostStrips>;
 
   bool look_at_boxes() {
-    boxes_left_ = kMostBoxes;
+    boxes_left_ = kMostHeights;
     Heights box;
     return look_at_layers(box, 0);
   }
@@ -514,7 +515,7 @@ class Region {
 StripPiece clipped(const Surface& surface, int body, std::uint32_t triangle, const StripRegion& region, double scale) {
   StripPiece piece{body, triangle, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const Corners c = corners(surface.mesh, triangle);
-  const double wide = kRoundoffs * kUnitRoundoff * scale;
+  const double wide = kClippedRoundoffs * kUnitRoundoff * scale;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 axis = region.axes.row[k];
     for (const double sign : {1.0, -1.0}) {
