@@ -72,7 +72,7 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
                      const Vec3 t = d.way_out;
                      return d.has_way_out ? std::optional(Tuple3{t.x, t.y, t.z}) : std::nullopt;
                    })
-      .def_prop_ro("stop", [](const DepthInterval& d) { return name_of(d.stop); })
+      .def_prop_ro("stop", [](const DepthInterval& d) { return name_of(d.stop); }, nb::sig(kStopSignature))
       .def_ro("work", &DepthInterval::work)
       .def_ro("boxes", &DepthInterval::boxes)
       .def_ro("mesh_tests", &DepthInterval::mesh_tests)

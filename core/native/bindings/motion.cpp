@@ -55,6 +55,7 @@ using Matrix12 = nb::ndarray<const double, nb::shape<12>, nb::c_contig, nb::devi
 using SiftedTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
 using DeepTuple = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, double>;
 using Sifting = std::vector<Sifted>;
+using Codes = nb::ndarray<nb::numpy, const std::uint8_t, nb::shape<-1, -1>>;
 
 std::vector<PosedBody*> bodies_of(const nb::tuple& held, const Matrices& matrices) {
   std::vector<PosedBody*> bodies;
@@ -63,10 +64,10 @@ std::vector<PosedBody*> bodies_of(const nb::tuple& held, const Matrices& matrice
   return bodies;
 }
 
-std::pair<nb::object, std::uint64_t> sift_all(const nb::typed<nb::sequence, PosedBody>& given,
-                                              const std::vector<SiftedTuple>& pairs, const Matrices& matrices,
-                                              unsigned threads, const std::optional<Margins>& margins,
-                                              std::uint64_t steps) {
+std::pair<Codes, std::uint64_t> sift_all(const nb::typed<nb::sequence, PosedBody>& given,
+                                         const std::vector<SiftedTuple>& pairs, const Matrices& matrices,
+                                         unsigned threads, const std::optional<Margins>& margins,
+                                         std::uint64_t steps) {
   const nb::tuple held(given);
   const std::vector<PosedBody*> bodies = bodies_of(held, matrices);
   if (margins && (margins->shape(0) != matrices.shape(0) || margins->shape(1) != pairs.size())) {
@@ -86,8 +87,7 @@ std::pair<nb::object, std::uint64_t> sift_all(const nb::typed<nb::sequence, Pose
   auto kept = std::make_unique<Sifting>(std::move(results));
   const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Sifting*>(p); });
   const auto* values = reinterpret_cast<const std::uint8_t*>(kept.release()->data());
-  const nb::ndarray<nb::numpy, const std::uint8_t> codes(values, {matrices.shape(0), pairs.size()}, owner);
-  return {nb::cast(codes), budget.spent()};
+  return {Codes(values, {matrices.shape(0), pairs.size()}, owner), budget.spent()};
 }
 
 std::vector<bool> neither_holds_in(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<DeepTuple>& pairs,

@@ -161,6 +161,7 @@ another also has a distance from its surface, so call mesh_relation first.)");
           return compare_gap(a, b, length, interrupting());
         },
         "a"_a, "b"_a, "length"_a, ReleaseGil(),
+        nb::sig("def compare_gap(a: Surface, b: Surface, length: float) -> typing.Literal[-1, 0, 1]"),
         R"(-1, 0 or 1: the distance of two surfaces without a common point is smaller than, equal to, or larger than the
 length. Decided exactly. Raises TooManySteps.)");
   m.def("moves_within",

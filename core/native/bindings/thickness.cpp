@@ -70,8 +70,8 @@ void bind_thickness(nb::module_& m) {
       .def_ro("at", &ThicknessProof::at)
       .def_prop_ro("cuts",
                    [](const ThicknessProof& proof) {
-                     nb::list cuts;
-                     for (const HalfSpace& cut : proof.cuts) cuts.append(nb::make_tuple(to_tuple(cut.normal), cut.height));
+                     std::vector<std::pair<Tuple3, double>> cuts;
+                     for (const HalfSpace& cut : proof.cuts) cuts.emplace_back(to_tuple(cut.normal), cut.height);
                      return cuts;
                    })
       .def_ro("sums", &ThicknessProof::sums);
@@ -85,7 +85,7 @@ stop: "narrow", "decided" (the interval lies on one side of the limit) or "work 
                      return t.found ? std::optional(to_tuple(t.centre)) : std::nullopt;
                    })
       .def_ro("radius", &ThicknessInterval::radius)
-      .def_prop_ro("stop", [](const ThicknessInterval& t) { return name_of(t.stop); })
+      .def_prop_ro("stop", [](const ThicknessInterval& t) { return name_of(t.stop); }, nb::sig(kStopSignature))
       .def_ro("work", &ThicknessInterval::work)
       .def_ro("boxes", &ThicknessInterval::boxes)
       .def_prop_ro("proof", [](const ThicknessInterval& t) { return t.proof ? std::optional(*t.proof) : std::nullopt; });
