@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -72,11 +71,9 @@ class Impact(Struct, frozen=True):
         return self.upper is None and self.reason is None
 
 
-def first_impact(pair: MovingPair, gaps: Sequence[float] = ()) -> Impact:
-    """gaps: the scan proves the largest of these lengths that the bodies stay apart by, if it can
-    do so on its way."""
-    if not pair.stretches:
-        return Impact(1.0, None, 1.0, gap=pair.free_gap)
+def first_impact(pair: MovingPair, gap: float = 0.0) -> Impact:
+    """Scan the stretches in which the bodies may meet. gap: the scan proves on its way that the
+    bodies stay farther apart than this, if it can."""
     try:
         start = pair.found_at(pair.stretches[0][0])
         if overlaps(start):
@@ -88,7 +85,7 @@ def first_impact(pair: MovingPair, gaps: Sequence[float] = ()) -> Impact:
     except Unanswerable as why:
         return Impact(0.0, None, 0.0, None, str(why))
     # A possible touch counts as a contact; the scan itself proves how deep it is.
-    scan = _Scan(pair, gaps, outside=start.exact_relation in FREE)
+    scan = _Scan(pair, gap, outside=start.exact_relation in FREE)
     try:
         scan.run()
     except Unanswerable as why:
@@ -111,16 +108,16 @@ class _Scan:
     """t: until t the bodies are free or within the touch band. met: where the contact at t began,
     the lower end of the interval that is reported. outside: the bodies are known to have no common
     interior at t. Separate surfaces do not prove that: a body smaller than the touch band may have
-    entered the other body. gaps: ascending; until t the bodies are farther apart than the last."""
+    entered the other body. gap: until t the bodies are farther apart than this."""
 
-    def __init__(self, pair: MovingPair, gaps: Sequence[float], outside: bool) -> None:
+    def __init__(self, pair: MovingPair, gap: float, outside: bool) -> None:
         self.t = 0.0
         self._outside = outside
         self.met = 0.0
         self.contact: float | None = None
         self.reason: str | None = None
         self._pair = pair
-        self._gaps = sorted({0.0, *gaps})
+        self._gap = gap
         self._offsets = ContactOffsets(pair)
 
     def run(self) -> None:
@@ -157,12 +154,12 @@ class _Scan:
         return time
 
     def _farther_apart(self, end: float) -> float:
-        """The time for which the surfaces are farther apart than the last of the gaps."""
-        while len(self._gaps) > 1:
-            time = self._pair.apart(self.t, end, gap=self._gaps[-1]).time
+        """The time for which the surfaces are farther apart than the gap, or than nothing."""
+        if self._gap > 0.0:
+            time = self._pair.apart(self.t, end, gap=self._gap).time
             if time >= min(SHORTEST_WIDE_STEP, end - self.t):
                 return time
-            self._gaps.pop()
+            self._gap = 0.0
         return self._pair.apart(self.t, end).time
 
     def _in_contact(self, end: float) -> float:
@@ -184,7 +181,7 @@ class _Scan:
         except Unanswerable as why:
             return Impact(self.t, None, self.t, self.contact, str(why))
         if upper is None and self.reason is None:
-            return Impact(1.0, None, 1.0, self.contact, gap=self._gaps[-1])
+            return Impact(1.0, None, 1.0, self.contact, gap=self._gap)
         if upper is None:
             return Impact(self.t, None, self.t, self.contact, self.reason)
         # If the budget ended before a contact, they stay apart until t.

@@ -1,12 +1,13 @@
-"""Two bodies on their tracks, and the bounds that can be proven from one moment on."""
+"""Two bodies that move, and the bounds that can be proven from one moment on."""
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_right
 from contextlib import contextmanager
+from functools import partial
 from itertools import chain
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -15,28 +16,23 @@ from satcheck import core
 from satcheck.audit.body import PlacedBody, diagonal
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
-from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS
+from satcheck.audit.motion.travel import ORIGIN, Travel
 from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.planner import ALWAYS
 from satcheck.core.curved.placed import rows_of
-from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, placed
 from satcheck.report.report import OVERLAPS
 from satcheck.report.request import Request
-from satcheck.report.sweep import Joints, Place
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from satcheck.audit.motion.joint_travel import JointWay
-    from satcheck.audit.motion.track import Track
     from satcheck.core.conventions import Vector
     from satcheck.report.report import Finding
 
     Ask = Callable[..., core.MotionAnswer]
     Side = tuple[core.Surface | core.Shape, Transform]
-    Way: TypeAlias = Track | JointWay
 
 
 Stretch = tuple[float, float]
@@ -70,8 +66,6 @@ VISITS = 10_000_000
 STEPS_OF_QUERY, STEPS_OF_VISIT, STEPS_OF_POSE = 50_000, 500, 300_000
 # For each triangle of both bodies in that pose.
 STEPS_OF_PLACED_TRIANGLE = 100
-# The least touch band of a sweep, in units of the rounding of a pose.
-PADS_IN_BAND = 8
 
 
 class Unanswerable(Exception):
@@ -93,14 +87,6 @@ class Obstacle(Struct, frozen=True):
     triangles: tuple[int, int] | None = None
 
 
-class Posed(Struct, frozen=True):
-    """The pose of both bodies at a time, as a report states it; see `Sweep`."""
-
-    at: tuple[Place, ...]
-    joints: Joints | None = None
-    poses: tuple[int, int] | None = None
-
-
 class MovingPair:
     """World frame. tolerance: half width of the touch band, at least the rounding of poses. pad:
     the rounding of a gap. framed: the frame of both bodies turns in the world. hulls_apart: whether
@@ -108,19 +94,18 @@ class MovingPair:
     the band wide for bodies of this size.
     """
 
-    def __init__(self, pair: Pair, way_a: Way, way_b: Way, found: OpenStretches) -> None:
-        self.pair = pair
-        self._sides = (pair.a, way_a), (pair.b, way_b)
-        self.framed = way_a.framed or way_b.framed
-        self.pad = sum(rounding_of(body, way) for body, way in self._sides)
-        rounding = PADS_IN_BAND * self.pad
+    def __init__(self, pair: Pair, travel: Travel, found: OpenStretches) -> None:
+        self.pair, self.posed = pair, partial(travel.posed, pair)
+        self._ways = travel.ways(pair.a.id, pair.b.id)
+        self.framed = any(way.framed for way in self._ways)
+        self.pad = sum(way.pad for way in self._ways)
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
-        if not rounding <= max(pair.tolerance, TOUCH_FRACTION * size):
+        if not travel.band(pair) <= max(pair.tolerance, TOUCH_FRACTION * size):
             raise Unanswerable(
                 f"the motion is so long that rounding moves the bodies by {self.pad:.3g}"
             )
-        self.tolerance = max(pair.tolerance, rounding)
-        self.times = sorted({*way_a.times, *way_b.times})
+        self.tolerance = travel.band(pair)
+        self.times: list[float] = travel.times.tolist()
         self.stretches, self.free_gap, self.steps = found.stretches, found.gap, found.steps
         self._most_steps = found.steps + STEPS + STEPS_A_PIECE * (len(self.times) - 2)
         self.convex = all(body.curved is not None or body.convex for body in (pair.a, pair.b))
@@ -135,11 +120,12 @@ class MovingPair:
 
     def _rates(self, t: float) -> tuple[float, float]:
         """That bound, and the largest effect of rounding on the rate at which a gap closes."""
-        piece = bisect_right(self.times, t)
+        piece = min(bisect_right(self.times, t), len(self.times) - 1)
         if piece not in self._known:
+            ends = self.times[piece - 1], self.times[piece]
             self._known[piece] = (
-                sum(way.fastest(t, body.bounds) for body, way in self._sides),
-                sum(way.slack(t, body.bounds) for body, way in self._sides),
+                sum(way.fastest(*ends) for way in self._ways),
+                sum(way.slack(*ends) for way in self._ways),
             )
         return self._known[piece]
 
@@ -160,7 +146,7 @@ class MovingPair:
 
     def velocities(self, t: float) -> list[Vector | None]:
         """Of all points of A and of B, in the piece of t; None: the body turns."""
-        return [way.velocity(t) for _, way in self._sides]
+        return [way.velocity(t) for way in self._ways]
 
     def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> Obstacle:
         """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
@@ -201,7 +187,7 @@ class MovingPair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
         requested."""
         try:
-            a, b = (_placed(body, way, t) for body, way in self._sides)
+            a, b = (way.placed(t) for way in self._ways)
         except (ValueError, OverflowError) as error:
             raise Unanswerable(f"a body cannot be placed at t = {t:.6g}: {error}") from None
         return replace(
@@ -253,13 +239,14 @@ class MovingPair:
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the hulls of the bodies, or their curved shapes."""
-        return self._asked(ask, t, offset, [_shape_of(b) for b, _ in self._sides], **bounds)
+        return self._asked(ask, t, offset, [_shape_of(way.body) for way in self._ways], **bounds)
 
     def _surfaces(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the surfaces of the bodies, or their curved shapes."""
-        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b, _ in self._sides]
+        bodies = [way.body for way in self._ways]
+        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b in bodies]
         result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
         self.pair.sweep_steps += STEPS_OF_VISIT * result.visits
@@ -273,7 +260,7 @@ class MovingPair:
             raise BudgetSpent
         self._spend(STEPS_OF_QUERY)
         (a, frame_a), (b, frame_b) = sides
-        (_, way_a), (_, way_b) = self._sides
+        way_a, way_b = self._ways
         span = bounds.get("limit", bounds.get("window", 0.0))
         moving_a = way_a.moving_at(t, span, offset, frame_a)
         moving_b = way_b.moving_at(t, span, ORIGIN, frame_b)
@@ -300,30 +287,3 @@ def _shape_of(body: PlacedBody) -> Side:
         return body.hull_shape(), IDENTITY
     turn = tuple(chain.from_iterable(rows_of(body.curved.turn)))
     return body.curved.shape, placed(turn, body.curved.centre)
-
-
-def rounding_of(body: PlacedBody, way: Way) -> float:
-    """Return how far rounding may move a point of a body on its way, world units."""
-    slack = 0.0 if body.curved is None else body.curved.slack
-    return way.pad(body.bounds) + _placing(body, way) + slack
-
-
-def _placing(body: PlacedBody, way: Way) -> float:
-    """How far the rounding of a placement matrix may move a point of the body, world units. It
-    depends on the coordinates in the file, which may be far larger than those in the world."""
-    transform = body.body.transform
-    if transform is None or not way.moves:
-        return 0.0
-    low, high = body.body.file.mesh.bounds
-    reach = math.hypot(*(transform[4 * row + 3] for row in range(3)))
-    for column, ends in enumerate(zip(low, high, strict=True)):
-        stretch = math.hypot(*(transform[4 * row + column] for row in range(3)))
-        reach += stretch * max(map(abs, ends))
-    return PLACING_ROUNDOFFS * UNIT_ROUNDOFF * reach
-
-
-def _placed(body: PlacedBody, way: Way, t: float) -> PlacedBody:
-    if not way.moves:
-        return body
-    moved = way.placement(t, body.body.transform)
-    return PlacedBody(replace(body.body, transform=moved), body.shared)

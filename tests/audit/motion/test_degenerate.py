@@ -123,7 +123,7 @@ def test_triangles_that_touch_for_a_moment(a, b, way, touch):
     sheets = [([tuple(map(float, p)) for p in corners], [(0, 1, 2)]) for corners in (a, b)]
     path = Translation(tuple(map(float, way)))
     pair = moving(sheets[0], path, sheets[1], tolerance=0.0, allow_open=True)
-    impact = first_impact(pair, (pair.tolerance,))
+    impact = first_impact(pair)
     assert impact.free
     assert impact.contact == pytest.approx(touch)
 
