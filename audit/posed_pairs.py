@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody, world_bounds
-from satcheck.audit.finding import open_by_fill
 from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.core.conventions import Vector
 from satcheck.core.steps import is_careful
 from satcheck.report.judge import Judgement, by_rule
-from satcheck.report.report import SEVERITIES, Finding
+from satcheck.report.report import SEVERITIES
 from satcheck.scene.bodies import IDENTITY, resolution_in_world
 from satcheck.scene.half_spaces import holds, reach_in_world
 
@@ -152,14 +151,6 @@ class PosedPairs:
         plain = asked & (written <= _PLAINLY_FINE * min(pair.a.diagonal, pair.b.diagonal))
         deviation = pair.a.body.file.deviation + pair.b.body.file.deviation
         own[plain] = np.maximum(written, deviation)[plain]
-
-    def by_fill(self, matrices: Numbers, row: int, number: int) -> Finding | None:
-        """Return the finding of a pair that is UNDECIDED in one of the poses; None: a climb has to
-        find the hole."""
-        a, b = self._places[number]
-        of_a, of_b = self._bodies[a].posed, self._bodies[b].posed
-        hole = core.open_hole(of_a, matrices[row, a], of_b, matrices[row, b])
-        return None if hole is None else open_by_fill(self.pairs[number], hole)
 
     def at(
         self,

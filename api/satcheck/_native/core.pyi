@@ -364,9 +364,6 @@ def neither_holds(
     pairs: Sequence[tuple[int, int, int, float]],
     matrices: NDArray[float64],
 ) -> list[bool]: ...
-def open_hole(
-    a: PosedBody, matrix_a: NDArray[float64], b: PosedBody, matrix_b: NDArray[float64]
-) -> OpenHole | None: ...
 
 Rung = Literal["aabb", "obb", "hull", "triangles"]
 # a, b, asked_gap, tolerance, wants_distance
