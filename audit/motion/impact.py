@@ -8,8 +8,7 @@ body, however fast or thin.
 
 Where we deviate: a contact is no collision. While bodies touch, the scan goes on as long as it can
 prove that they overlap by no more than the touch band. For two convex bodies the signed distance
-proves it; else the hull that a sliding body sweeps (swept_hull.py), or a translation of A, no
-longer than the band, after which they stay apart. If the proof fails, the scan looks for an overlap
+proves it; else contact.py does. If the proof fails, the scan looks for an overlap
 later in the motion. If it finds none, the answer is open.
 """
 
@@ -22,14 +21,13 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.motion.contact_offsets import ContactOffsets
+from satcheck.audit.motion.contact import ContactOffsets, safe_slide
 from satcheck.audit.motion.moving_pair import (
     SLID,
     MovingPair,
     Unanswerable,
     overlaps,
 )
-from satcheck.audit.motion.swept_hull import safe_slide
 from satcheck.audit.stages.depth import FREE
 from satcheck.audit.stages.thickness import why_not_thick
 from satcheck.report.report import OVERLAPS
@@ -156,16 +154,19 @@ class _Scan:
     def _farther_apart(self, end: float) -> float:
         """The time for which the surfaces are farther apart than the gap, or than nothing."""
         if self._gap > 0.0:
-            time = self._pair.apart(self.t, end, gap=self._gap).time
+            time = self._pair.apart(self.t, end, gap=self._gap)
             if time >= min(SHORTEST_WIDE_STEP, end - self.t):
                 return time
             self._gap = 0.0
-        return self._pair.apart(self.t, end).time
+        return self._pair.apart(self.t, end)
 
     def _in_contact(self, end: float) -> float:
         on = self._pair.shallow(self.t, end)
         if self._pair.is_step(on, self.t, end) or not self._pair.pair.may("exact"):
             return on
+        # Most contacts are so short that they count as the start of an overlap.
+        if overlaps(self._pair.found_at(self._pair.soon(self.t, end, SLID))):
+            return 0.0
         slide = safe_slide(self._pair, self.t, end)
         if self._pair.is_step(slide, self.t, end):
             return slide

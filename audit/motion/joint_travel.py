@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,6 @@ from satcheck.audit.body import PlacedBody
 from satcheck.audit.motion.travel import (
     Moments,
     Numbers,
-    Posed,
     Rates,
     Travel,
     kept,
@@ -87,10 +87,10 @@ class JointTravel(Travel):
         angle = max((float(np.abs(own).max()) for own in turns), default=0.0)
         return 3 * JOINT_ROUNDOFFS * (len(robot.joints) + 1) * (1 + angle)
 
-    def posed(self, pair: Pair, t: float) -> Posed:
+    def posed(self, pair: Pair, t: float) -> dict[str, Any]:
         mover = pair.a if self.above[self.place[pair.a.id]] else pair.b
-        place = Place(mover.id, "t", t)
-        return Posed((place,), self.path.pose(t), self.path.poses_around(t))
+        at, poses = (Place(mover.id, "t", t),), self.path.poses_around(t)
+        return {"at": at, "joints": self.path.pose(t), "poses": poses}
 
     def stated(self) -> tuple[StatedMotion, ...]:
         moving = [body.id for body, above in zip(self.bodies, self.above, strict=True) if above]

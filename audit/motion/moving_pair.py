@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from satcheck.report.report import Finding
 
     Ask = Callable[..., core.MotionAnswer]
-    Side = tuple[core.Surface | core.Shape, Transform]
+    Shaped = tuple[core.Surface | core.Shape, Transform]
 
 
 Stretch = tuple[float, float]
@@ -79,26 +79,19 @@ class BudgetSpent(Unanswerable):
         super().__init__("the budget of the sweep was spent")
 
 
-class Obstacle(Struct, frozen=True):
-    """time: how long the way is free, in t. triangles: of A and B, the obstacle then; None: there
-    is none, or only the hulls were tested."""
-
-    time: float
-    triangles: tuple[int, int] | None = None
-
-
 class MovingPair:
     """World frame. tolerance: half width of the touch band, at least the rounding of poses. pad:
     the rounding of a gap. framed: the frame of both bodies turns in the world. hulls_apart: whether
-    the hulls alone have answered all queries so far. Raises Unanswerable if the rounding would make
+    the hulls alone have answered all queries so far. obstacle: the triangles of A and B that ended
+    the last way between surfaces; -1: none. Raises Unanswerable if the rounding would make
     the band wide for bodies of this size.
     """
 
     def __init__(self, pair: Pair, travel: Travel, found: OpenStretches) -> None:
-        self.pair, self.posed = pair, partial(travel.posed, pair)
-        self._ways = travel.ways(pair.a.id, pair.b.id)
-        self.framed = any(way.framed for way in self._ways)
-        self.pad = sum(way.pad for way in self._ways)
+        self.pair, self.posed, self._travel = pair, partial(travel.posed, pair), travel
+        self._sides, self._bodies = travel.sides(pair), (pair.a, pair.b)
+        self.framed = any(len(joints) < len(travel.above[k]) for k, joints in self._sides)
+        self.pad = sum(travel.pad(k) for k, _ in self._sides)
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
         if not travel.band(pair) <= max(pair.tolerance, TOUCH_FRACTION * size):
             raise Unanswerable(
@@ -111,6 +104,7 @@ class MovingPair:
         self.convex = all(body.curved is not None or body.convex for body in (pair.a, pair.b))
         self._known: dict[int, tuple[float, float]] = {}  # of pieces
         self.hulls_apart = True
+        self.obstacle = -1, -1
         self.visits = 0
 
     def fastest(self, t: float) -> float:
@@ -123,10 +117,8 @@ class MovingPair:
         piece = min(bisect_right(self.times, t), len(self.times) - 1)
         if piece not in self._known:
             ends = self.times[piece - 1], self.times[piece]
-            self._known[piece] = (
-                sum(way.fastest(*ends) for way in self._ways),
-                sum(way.slack(*ends) for way in self._ways),
-            )
+            (v, p), (w, q) = (self._travel.in_piece(side, *ends) for side in self._sides)
+            self._known[piece] = v + w, p + q
         return self._known[piece]
 
     def shortest_step(self, t: float) -> float:
@@ -144,20 +136,31 @@ class MovingPair:
         times = [start, *(time for time in self.times if start < time < end)]
         return max(map(self.fastest, times)) * (end - start)
 
-    def velocities(self, t: float) -> list[Vector | None]:
-        """Of all points of A and of B, in the piece of t; None: the body turns."""
-        return [way.velocity(t) for way in self._ways]
+    def soon(self, t: float, end: float, bands: float) -> float:
+        """Return when the bodies may have moved by so many touch bands since t; at most the end."""
+        speed = self.fastest(t)
+        return min(t + bands * self.tolerance / speed, end) if speed > 0.0 else end
 
-    def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> Obstacle:
+    def velocity(self, t: float) -> Vector | None:
+        """Return that of A relative to B, in the piece of t; None: a body turns, or is curved."""
+        at = self._travel.at_one(t)
+        of_a, of_b = ([at.joint(j) for j in joints] for _, joints in self._sides)
+        if self.pair.curved or any(own.rate[0] for own in (*of_a, *of_b)):
+            return None
+        slides = [own.slide[0] for own in of_a] + [-own.slide[0] for own in of_b]
+        x, y, z = map(float, sum(slides, start=ORIGIN))
+        return x, y, z
+
+    def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> float:
         """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
         is moved by `offset`. end: in the same pieces as t."""
         hulls = self._hulls(core.safe_time, t, offset, level=gap, limit=end - t)
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
-            return Obstacle(hulls.value)
+            return hulls.value
         self.hulls_apart = False
         result = self._surfaces(core.safe_time, t, offset, level=gap, limit=end - t)
-        triangles = result.triangle_a, result.triangle_b
-        return Obstacle(max(hulls.value, result.value), None if min(triangles) < 0 else triangles)
+        self.obstacle = result.triangle_a, result.triangle_b
+        return max(hulls.value, result.value)
 
     def shallow(self, t: float, end: float) -> float:
         """The time for which the hulls, and so the bodies, overlap by no more than the
@@ -187,7 +190,7 @@ class MovingPair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
         requested."""
         try:
-            a, b = (way.placed(t) for way in self._ways)
+            a, b = (self._travel.moved(k, t) for k, _ in self._sides)
         except (ValueError, OverflowError) as error:
             raise Unanswerable(f"a body cannot be placed at t = {t:.6g}: {error}") from None
         return replace(
@@ -206,13 +209,10 @@ class MovingPair:
         """The finding at t, exact for the poses rounded to float64. clearance: it has to keep.
         tolerance: instead of the touch band of the sweep."""
         placed = self.placed(t)
-        if tolerance is not None:
-            placed = replace(placed, request=replace(placed.request, tolerance=tolerance))
-        if clearance:
-            by = {**placed.request.by, "distance": ALWAYS}
-            request = replace(placed.request, by=by, clearance=clearance)
-            placed = replace(placed, request=request)
-        return self.found(placed)
+        by = {"overlap": ALWAYS, "distance": ALWAYS} if clearance else placed.request.by
+        width = self.tolerance if tolerance is None else tolerance
+        request = Request(by, tolerance=width, clearance=clearance)
+        return self.found(replace(placed, request=request))
 
     def found(self, placed: Pair) -> Finding:
         """The finding of the pair as placed at some t."""
@@ -239,31 +239,31 @@ class MovingPair:
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the hulls of the bodies, or their curved shapes."""
-        return self._asked(ask, t, offset, [_shape_of(way.body) for way in self._ways], **bounds)
+        return self._asked(ask, t, offset, [_shape_of(b) for b in self._bodies], **bounds)
 
     def _surfaces(
         self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
     ) -> core.MotionAnswer:
         """Asks about the surfaces of the bodies, or their curved shapes."""
-        bodies = [way.body for way in self._ways]
-        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b in bodies]
+        both = self._bodies
+        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b in both]
         result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
         self.visits += result.visits
         self.pair.sweep_steps += STEPS_OF_VISIT * result.visits
         return result
 
     def _asked(
-        self, ask: Ask, t: float, offset: Vector, sides: Sequence[Side], **bounds: float
+        self, ask: Ask, t: float, offset: Vector, shapes: Sequence[Shaped], **bounds: float
     ) -> core.MotionAnswer:
         self.steps += 1
         if self.steps > self._most_steps or self.visits >= VISITS:
             raise BudgetSpent
         self._spend(STEPS_OF_QUERY)
-        (a, frame_a), (b, frame_b) = sides
-        way_a, way_b = self._ways
+        (a, frame_a), (b, frame_b) = shapes
+        side_a, side_b = self._sides
         span = bounds.get("limit", bounds.get("window", 0.0))
-        moving_a = way_a.moving_at(t, span, offset, frame_a)
-        moving_b = way_b.moving_at(t, span, ORIGIN, frame_b)
+        moving_a = self._travel.moving(side_a, t, span, offset, frame_a)
+        moving_b = self._travel.moving(side_b, t, span, ORIGIN, frame_b)
         return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._rates(t)[1], **bounds)
 
 
@@ -281,7 +281,7 @@ def overlaps(finding: Finding) -> bool:
     return finding.relation in OVERLAPS and finding.exact_relation is not None
 
 
-def _shape_of(body: PlacedBody) -> Side:
+def _shape_of(body: PlacedBody) -> Shaped:
     """The hull of a body, or its curved shape, with its placement."""
     if body.curved is None:
         return body.hull_shape(), IDENTITY

@@ -67,7 +67,7 @@ def _swept_along(moving: MovingPair) -> Sweep:
     if hit is None:
         return _swept(impact, moving.tolerance, moving.steps)
     impact = replace(impact, upper=hit, reason=None)
-    shown = {"at": moving.posed(hit).at, "proven": False}
+    shown = {"at": moving.posed(hit)["at"], "proven": False}
     return _swept(impact, moving.tolerance, moving.steps, "penetrating", **shown)
 
 
@@ -107,11 +107,10 @@ def _worst_pose(pair: MovingPair, worst: Worst | None) -> WorstPose | None:
     if worst is None:
         return None
     posed = pair.posed(worst.time)
+    posed.pop("poses", None)
     if worst.upper < 0.0:
-        depth = -worst.upper, -worst.lower
-        return WorstPose(worst.time, posed.at, posed.joints, depth=depth)
-    distance = max(worst.lower, 0.0), worst.upper
-    return WorstPose(worst.time, posed.at, posed.joints, distance=distance)
+        return WorstPose(worst.time, **posed, depth=(-worst.upper, -worst.lower))
+    return WorstPose(worst.time, **posed, distance=(max(worst.lower, 0.0), worst.upper))
 
 
 def _gap(pair: MovingPair) -> float:
@@ -124,15 +123,12 @@ def _hit(pair: MovingPair, impact: Impact, upper: float) -> Sweep:
     worst, request = None, pair.pair.request
     if request.wants("depth") or request.max_thickness is not None:
         worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
-    posed = pair.posed(upper)
     return _swept(
         impact,
         pair.tolerance,
         pair.steps,
         "penetrating",
-        at=posed.at,
-        joints=posed.joints,
-        poses=posed.poses,
+        **pair.posed(upper),
         point=impact_point(pair.placed(upper), pair.path_length(impact.lower, upper)),
         worst=_worst_pose(pair, worst),
     )

@@ -11,12 +11,13 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from msgspec import Struct, convert, to_builtins
 
 from satcheck.audit.body import Box, PlacedBody, corners
-from satcheck.audit.motion.travel import ORIGIN, Moments, Numbers, Posed, Rates, Travel, kept
+from satcheck.audit.motion.travel import ORIGIN, Moments, Numbers, Rates, Travel, kept
 from satcheck.audit.pair import Pair
 from satcheck.audit.vectors import crossed, dot
 from satcheck.core.conventions import Vector
@@ -123,9 +124,11 @@ class TrackTravel(Travel):
     def roundoffs(self, k: int) -> float:
         return 4 * self.tracks[self.above[k][0]].turned(max)
 
-    def posed(self, pair: Pair, t: float) -> Posed:
+    def posed(self, pair: Pair, t: float) -> dict[str, Any]:
         both = ((body.id, self.above[self.place[body.id]]) for body in (pair.a, pair.b))
-        return Posed(tuple(_place(id_, self._motions[j].path, t) for id_, own in both for j in own))
+        return {
+            "at": tuple(_place(id_, self._motions[j].path, t) for id_, own in both for j in own)
+        }
 
     def stated(self) -> tuple[StatedMotion, ...]:
         return tuple(

@@ -27,7 +27,6 @@ from satcheck.audit.vectors import added
 from satcheck.core.conventions import Vector
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, compose
-from satcheck.report.sweep import Joints, Place
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
 
 Numbers = NDArray[np.float64]
 Kept = TypeVar("Kept")
+Side = tuple[int, Sequence[int]]  # the place of a body, and joints that move it
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 # Rounding errors, in roundoffs of the reach of a body. The reach is the sum of three distances: of
@@ -133,14 +133,6 @@ class Moments(ABC):
         return matrices
 
 
-class Posed(Struct, frozen=True):
-    """The pose of both bodies at a time, as a report states it; see `Sweep`."""
-
-    at: tuple[Place, ...]
-    joints: Joints | None = None
-    poses: tuple[int, int] | None = None
-
-
 class Travel(ABC):
     """bodies: all of the scene that can be used; place: their places there. above: of each body the
     joints that move it, the nearest first. times: the ends of the pieces in which all joints move
@@ -173,8 +165,8 @@ class Travel(ABC):
         beside POSE_ROUNDOFFS."""
 
     @abstractmethod
-    def posed(self, pair: Pair, t: float) -> Posed:
-        """Return the pose of both bodies at a time, as a report states it."""
+    def posed(self, pair: Pair, t: float) -> dict[str, Any]:
+        """Return the pose of both bodies at a time, as fields of a `Sweep`: at, joints, poses."""
 
     @abstractmethod
     def stated(self) -> tuple[StatedMotion, ...]:
@@ -184,16 +176,12 @@ class Travel(ABC):
         """Return whether two bodies move relative to each other."""
         return set(self.above[self.place[a]]) != set(self.above[self.place[b]])
 
-    def relative(self, a: int, b: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Return the joints that move two bodies in the frame that the joints above both carry."""
+    def sides(self, pair: Pair) -> tuple[Side, Side]:
+        """Return the places of both bodies, each with the joints that move it in the frame that the
+        joints above both carry, the nearest first."""
+        a, b = self.place[pair.a.id], self.place[pair.b.id]
         of_a, of_b = self.above[a], self.above[b]
-        return tuple(j for j in of_a if j not in of_b), tuple(j for j in of_b if j not in of_a)
-
-    def ways(self, a: str, b: str) -> tuple[Way, Way]:
-        """Return the motions of two bodies in that frame."""
-        i, j = self.place[a], self.place[b]
-        only_a, only_b = self.relative(i, j)
-        return Way(self, i, only_a), Way(self, j, only_b)
+        return (a, [j for j in of_a if j not in of_b]), (b, [j for j in of_b if j not in of_a])
 
     def bounds(self, body: str) -> Box:
         """Return the world box of a body over its whole motion, and as placed."""
@@ -227,13 +215,63 @@ class Travel(ABC):
             speed += turning + np.linalg.norm(own.slide, axis=1)
         return speed * _ROUNDED_UP, acceleration * _ROUNDED_UP
 
+    def in_piece(self, side: Side, start: float, end: float) -> tuple[float, float]:
+        """Return an upper bound of the speed of all points of a body in a piece, and the largest
+        effect of rounding on the rate at which a gap closes there."""
+        k, joints = side
+        at, half = self.at_one(0.5 * (start + end)), 0.5 * (end - start) * _ROUNDED_UP
+        with np.errstate(all="ignore"):
+            speed = float(self.fastest(at, np.array([half]), k, joints)[0][0])
+        reach = self.reach(k)
+        if not joints or not reach:
+            return speed, 0.0
+        turned = sum(abs(float(at.joint(j).rate[0])) for j in joints) * reach
+        share = RATE_ROUNDOFFS * UNIT_ROUNDOFF + self.pad(k) / reach
+        leg = LEG_ROUNDOFFS * UNIT_ROUNDOFF * reach / (end - start)
+        return speed, share * (speed + turned) + leg
+
+    def moved(self, k: int, t: float) -> PlacedBody:
+        """Return a body at t. Raises ValueError or OverflowError if it cannot be placed there."""
+        body = self.bodies[k]
+        if not self.above[k]:
+            return body
+        transform = transform_of(self.at_one(t).placement(k))
+        return PlacedBody(replace(body.body, transform=transform), body.shared)
+
+    def moving(
+        self, side: Side, t: float, span: float, offset: Vector, frame: Transform
+    ) -> core.Moving:
+        """Return the place and the motion of a body at t, moved by `offset`. Its bounds hold for
+        `span` before and after t. frame: places it before the motion."""
+        (k, joints), at = side, self.at_one(t)
+        pose = transform_of(at.pose(k)) if self.above[k] else IDENTITY
+        if frame != IDENTITY:
+            pose = compose(pose, frame)
+        a, b, c, x, d, e, f, y, g, h, i, z = pose[:12]
+        rates = [at.joint(j) for j in joints]
+        centre = rates[0].origin[0] if rates else np.zeros(3)
+        spin, velocity = np.zeros(3), np.zeros(3)
+        for own in rates:
+            turn = own.rate[0] * own.axis[0]
+            spin += turn
+            velocity += own.slide[0]
+            if own is not rates[0]:
+                velocity += np.cross(turn, centre - own.origin[0])
+        # Joints that slide carry the axis of the nearest one along a line.
+        unsteady = (0.0, 0.0)
+        if any(own.rate[0] for own in rates[1:]):
+            speed, acceleration = self.fastest(at, np.array([span * _ROUNDED_UP]), k, joints)
+            unsteady = float(speed[0]), float(acceleration[0])
+        turned, shift = ((a, b, c), (d, e, f), (g, h, i)), added((x, y, z), offset)
+        about = added(_vector(centre), offset)
+        return core.Moving(turned, shift, about, _vector(velocity), _vector(spin), *unsteady)
+
     def between(self, at: Moments, half: Numbers, pair: Pair) -> Numbers:
         """Return an upper bound of how far two bodies move towards each other in a time `half`
         before or after each moment, rounding included."""
         way = np.zeros(len(half))
-        a, b = self.place[pair.a.id], self.place[pair.b.id]
         with np.errstate(all="ignore"):  # beyond float64 nothing is proven
-            for k, joints in zip((a, b), self.relative(a, b), strict=True):
+            for k, joints in self.sides(pair):
                 way += self.fastest(at, half, k, joints)[0] * half * _ROUNDED_UP
                 way += 2 * self.pad(k)
         return way
@@ -320,91 +358,13 @@ class SweptBoxes(Struct):
         return near or core.box_gap(self.placed, other.placed) <= limit
 
 
-class Way:
-    """The motion of a body of a pair. At every moment its rates are those that the frame above both
-    bodies sees, in the directions of the world.
-
-    k: of the body. joints: those that carry it in that frame, the nearest first. framed: that frame
-    moves.
-    """
-
-    def __init__(self, travel: Travel, k: int, joints: Sequence[int]) -> None:
-        self._travel, self.k, self.joints = travel, k, joints
-        self.framed = len(joints) < len(travel.above[k])
-        self.body, self.pad = travel.bodies[k], travel.pad(k)
-
-    def placed(self, t: float) -> PlacedBody:
-        """Return the body at t. Raises ValueError or OverflowError if it cannot be placed there."""
-        if not self._travel.above[self.k]:
-            return self.body
-        moved = transform_of(self._travel.at_one(t).placement(self.k))
-        return PlacedBody(replace(self.body.body, transform=moved), self.body.shared)
-
-    def fastest(self, start: float, end: float) -> float:
-        """Return an upper bound of the speed of any point of the body in a piece."""
-        at, half = self._travel.at_one(0.5 * (start + end)), 0.5 * (end - start) * _ROUNDED_UP
-        with np.errstate(all="ignore"):
-            speed, _ = self._travel.fastest(at, np.array([half]), self.k, self.joints)
-        return float(speed[0])
-
-    def slack(self, start: float, end: float) -> float:
-        """Return the largest effect of rounding on the rate at which a gap closes, in a piece."""
-        at, reach = self._travel.at_one(0.5 * (start + end)), self._travel.reach(self.k)
-        if not self.joints or not reach:
-            return 0.0
-        turned = sum(abs(float(at.joint(j).rate[0])) for j in self.joints) * reach
-        share = RATE_ROUNDOFFS * UNIT_ROUNDOFF + self.pad / reach
-        leg = LEG_ROUNDOFFS * UNIT_ROUNDOFF * reach / (end - start)
-        return share * (self.fastest(start, end) + turned) + leg
-
-    def velocity(self, t: float) -> Vector | None:
-        """Of all points, in the piece of t; None: the body turns."""
-        rates = [self._travel.at_one(t).joint(j) for j in self.joints]
-        if any(own.rate[0] for own in rates):
-            return None
-        return _vector(sum((own.slide[0] for own in rates), np.zeros(3)))
-
-    def moving_at(
-        self, t: float, span: float, offset: Vector = ORIGIN, frame: Transform = IDENTITY
-    ) -> core.Moving:
-        """Return the place and the motion of the body at t, moved by `offset`. Its bounds hold for
-        `span` before and after t. frame: places it before the motion."""
-        at = self._travel.at_one(t)
-        pose = transform_of(at.pose(self.k)) if self._travel.above[self.k] else IDENTITY
-        if frame != IDENTITY:
-            pose = compose(pose, frame)
-        a, b, c, x, d, e, f, y, g, h, i, z = pose[:12]
-        rates = [at.joint(j) for j in self.joints]
-        centre = rates[0].origin[0] if rates else np.zeros(3)
-        spin, velocity = np.zeros(3), np.zeros(3)
-        for own in rates:
-            turn = own.rate[0] * own.axis[0]
-            spin += turn
-            velocity += own.slide[0]
-            if own is not rates[0]:
-                velocity += np.cross(turn, centre - own.origin[0])
-        # Joints that slide carry the axis of the nearest one along a line.
-        unsteady = (0.0, 0.0)
-        if any(own.rate[0] for own in rates[1:]):
-            half = np.array([span * _ROUNDED_UP])
-            speed, acceleration = self._travel.fastest(at, half, self.k, self.joints)
-            unsteady = float(speed[0]), float(acceleration[0])
-        turned, shift = ((a, b, c), (d, e, f), (g, h, i)), added((x, y, z), offset)
-        about = added(_vector(centre), offset)
-        return core.Moving(turned, shift, about, _vector(velocity), _vector(spin), *unsteady)
-
-
 def _placing(body: PlacedBody) -> float:
     """Return how far the rounding of a placement matrix may move a point of the body, world units.
     It depends on the coordinates in the file, which may be far larger than those in the world."""
     transform = body.body.transform
     if transform is None:
         return 0.0
-    low, high = body.body.file.mesh.bounds
-    reach = math.hypot(*(transform[4 * row + 3] for row in range(3)))
-    for column, ends in enumerate(zip(low, high, strict=True)):
-        stretch = math.hypot(*(transform[4 * row + column] for row in range(3)))
-        reach += stretch * max(map(abs, ends))
+    reach = 3 * body.largest_stretch * body.shared.largest + math.hypot(*transform[3:12:4])
     return PLACING_ROUNDOFFS * UNIT_ROUNDOFF * reach
 
 
