@@ -18,7 +18,7 @@ import math
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.motion.contact import ContactOffsets, safe_slide
@@ -31,6 +31,8 @@ from satcheck.audit.motion.moving_pair import (
 from satcheck.audit.stages.depth import FREE
 from satcheck.audit.stages.thickness import why_not_thick
 from satcheck.report.report import OVERLAPS
+from satcheck.report.sweep import Sweep, SweptRelation
+from satcheck.report.values import Interval
 
 if TYPE_CHECKING:
     from satcheck.audit.pair import Pair
@@ -48,47 +50,49 @@ COARSE = 0.5
 WORK = 10_000_000
 
 
-class Impact(Struct, frozen=True):
-    """lower, upper: bounds of the first t at which the bodies overlap by more than the touch band.
-    Before lower they do not; at upper they do. upper is None if no overlap was found.
-
-    reached: up to this t no such overlap is proven; 1.0: for the whole motion. contact: the first t
-    at which the bodies may touch; None: never. reason: why the scan ended early without an overlap.
-    gap: the bodies are farther apart than this all the way; 0.0 also if they are not.
-    """
-
-    lower: float
-    upper: float | None
-    reached: float
-    contact: float | None = None
-    reason: str | None = None
-    gap: float = 0.0
-
-    @property
-    def free(self) -> bool:
-        return self.upper is None and self.reason is None
-
-
-def first_impact(pair: MovingPair, gap: float = 0.0) -> Impact:
-    """Scan the stretches in which the bodies may meet. gap: the scan proves on its way that the
-    bodies stay farther apart than this, if it can."""
+def first_impact(pair: MovingPair, gap: float = 0.0) -> Sweep:
+    """Scan the stretches in which the bodies may meet. The relation of bodies that stay free is the
+    closest that is not excluded yet. gap: the scan proves on its way that the bodies stay farther
+    apart than this, if it can."""
     try:
         start = pair.found_at(pair.stretches[0][0])
         if overlaps(start):
-            return Impact(0.0, 0.0, 0.0, 0.0)
+            return open_sweep(pair, 0.0, (0.0, 0.0), 0.0)
         if start.relation == "indeterminate" or start.relation in OVERLAPS:
             reason = f"undecided where the motion starts: {start.reason}"
             upper = _first_overlap(pair, 0.0) if pair.pair.may("exact") else None
-            return Impact(0.0, upper, 0.0, 0.0, reason if upper is None else None)
+            if upper is None:
+                return open_sweep(pair, 0.0, contact=0.0, reason=reason)
+            return open_sweep(pair, 0.0, (0.0, upper), 0.0)
     except Unanswerable as why:
-        return Impact(0.0, None, 0.0, None, str(why))
+        return open_sweep(pair, 0.0, reason=str(why))
     # A possible touch counts as a contact; the scan itself proves how deep it is.
     scan = _Scan(pair, gap, outside=start.exact_relation in FREE)
     try:
         scan.run()
     except Unanswerable as why:
         scan.reason = f"{why}, at t = {scan.t:.6g}"
-    return scan.impact()
+    return scan.swept()
+
+
+def open_sweep(
+    pair: MovingPair,
+    reached: float,
+    impact: Interval | None = None,
+    contact: float | None = None,
+    reason: str | None = None,
+) -> Sweep:
+    """Return a sweep without its figures."""
+    relation: SweptRelation = "indeterminate" if reason else "touching"
+    return Sweep(
+        relation="penetrating" if impact else relation,
+        time_of_impact=impact,
+        reached=reached,
+        contact=contact,
+        reason=reason,
+        tolerance=pair.tolerance,
+        steps=pair.steps,
+    )
 
 
 def possible_overlap(pair: MovingPair, start: float) -> float | None:
@@ -172,22 +176,20 @@ class _Scan:
             return slide
         return self._offsets.safe_time(self.t, end)
 
-    def impact(self) -> Impact:
+    def swept(self) -> Sweep:
+        pair, contact = self._pair, self.contact
         try:
-            upper = (
-                self._inside_at_rest()
-                if self.reason is None
-                else _first_overlap(self._pair, self.t)
-            )
+            upper = self._inside_at_rest() if self.reason is None else _first_overlap(pair, self.t)
         except Unanswerable as why:
-            return Impact(self.t, None, self.t, self.contact, str(why))
+            return open_sweep(pair, self.t, None, contact, str(why))
         if upper is None and self.reason is None:
-            return Impact(1.0, None, 1.0, self.contact, gap=self._gap)
+            free = open_sweep(pair, 1.0, None, contact)
+            return replace(free, distance_at_least=self._gap or None)
         if upper is None:
-            return Impact(self.t, None, self.t, self.contact, self.reason)
+            return open_sweep(pair, self.t, None, contact, self.reason)
         # If the budget ended before a contact, they stay apart until t.
-        contact = self.t if self.contact is None else self.contact
-        return Impact(min(self.met, upper), upper, min(self.t, upper), contact)
+        contact = self.t if contact is None else contact
+        return open_sweep(pair, min(self.t, upper), (min(self.met, upper), upper), contact)
 
     def _inside_at_rest(self) -> float | None:
         """The start or the end of the motion, if the bodies touch on the way and this pose fails at

@@ -6,14 +6,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody
 from satcheck.audit.close_pairs import ClosePairs
-from satcheck.audit.motion.impact import Impact, first_impact, impact_point, possible_overlap
+from satcheck.audit.motion.impact import first_impact, impact_point, open_sweep, possible_overlap
 from satcheck.audit.motion.moving_pair import MovingPair, OpenStretches, Unanswerable, holed
 from satcheck.audit.motion.open_stretches import open_stretches
 from satcheck.audit.motion.travel import Travel
@@ -28,6 +27,7 @@ from satcheck.audit.planner import Planner
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Issue
 from satcheck.report.sweep import StatedMotion, Sweep, SweptRelation, WorstPose
+from satcheck.report.values import Interval
 from satcheck.scene import Scene
 from satcheck.scene.half_spaces import holds
 
@@ -39,9 +39,20 @@ def sweep(pair: Pair, travel: Travel, found: OpenStretches) -> Sweep:
             _require_reach(pair, travel)
             return _swept_along(MovingPair(pair, travel, found))
     except Unanswerable as why:
-        return _swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, found.steps)
-    free = Impact(1.0, None, 1.0, gap=found.gap)
-    return _swept(free, pair.tolerance, found.steps, "separated", distance_at_least=found.gap)
+        return Sweep(
+            relation="indeterminate",
+            reached=0.0,
+            reason=str(why),
+            tolerance=pair.tolerance,
+            steps=found.steps,
+        )
+    return Sweep(
+        relation="separated",
+        reached=1.0,
+        distance_at_least=found.gap,
+        tolerance=pair.tolerance,
+        steps=found.steps,
+    )
 
 
 def _require_reach(pair: Pair, travel: Travel) -> None:
@@ -55,49 +66,29 @@ def _swept_along(moving: MovingPair) -> Sweep:
     pair = moving.pair
     if not pair.may("hull"):
         reason = f"bodies are not swept at --accuracy {pair.settings.accuracy}"
-        impact = Impact(0.0, None, 0.0, reason=reason)
+        swept = open_sweep(moving, 0.0, reason=reason)
     else:
-        impact = first_impact(moving, _gap(moving))
-    if impact.upper is not None:
-        return _hit(moving, impact, impact.upper)
-    if impact.reason is None:
-        return _free(moving, impact)
-    # An overlap of boxes, hulls or parts instead of the bodies is no proof.
-    hit = None if pair.may("exact") else possible_overlap(moving, impact.reached)
-    if hit is None:
-        return _swept(impact, moving.tolerance, moving.steps)
-    impact = replace(impact, upper=hit, reason=None)
-    shown = {"at": moving.posed(hit)["at"], "proven": False}
-    return _swept(impact, moving.tolerance, moving.steps, "penetrating", **shown)
-
-
-def _swept(
-    impact: Impact,
-    tolerance: float,
-    steps: int,
-    relation: SweptRelation = "indeterminate",
-    **figures: Any,
-) -> Sweep:
-    """Return the sweep that found the impact."""
-    return Sweep(
-        relation=relation,
-        time_of_impact=None if impact.upper is None else (impact.lower, impact.upper),
-        reached=impact.reached,
-        contact=impact.contact,
-        reason=impact.reason,
-        tolerance=tolerance,
-        steps=steps,
-        **figures,
-    )
+        swept = first_impact(moving, _gap(moving))
+    if swept.time_of_impact is not None:
+        swept = _hit(moving, swept, swept.time_of_impact)
+    elif swept.reason is None:
+        swept = _free(moving, swept)
+    elif not pair.may("exact"):
+        # An overlap of boxes, hulls or parts instead of the bodies is no proof.
+        hit = possible_overlap(moving, swept.reached)
+        if hit is not None:
+            shown = open_sweep(moving, swept.reached, (swept.reached, hit), swept.contact)
+            swept = replace(shown, at=moving.posed(hit)["at"], proven=False)
+    return replace(swept, steps=moving.steps)
 
 
 def _relation_apart(
-    impact: Impact, worst: Worst | None, tolerance: float, clearance: float | None
+    contact: float | None, worst: Worst | None, tolerance: float, clearance: float | None
 ) -> SweptRelation:
     """The relation of bodies that stay apart, or within the touch band, during the whole motion.
     worst: the nearest pose, as far as it is known."""
     upper = math.inf if worst is None else worst.upper
-    if impact.contact is not None or upper <= tolerance:
+    if contact is not None or upper <= tolerance:
         return "touching"
     return "near" if upper < (clearance or 0.0) else "separated"
 
@@ -119,49 +110,34 @@ def _gap(pair: MovingPair) -> float:
     return 0.0 if holed(pair.pair) else max(pair.tolerance, pair.pair.request.clearance or 0.0)
 
 
-def _hit(pair: MovingPair, impact: Impact, upper: float) -> Sweep:
+def _hit(pair: MovingPair, swept: Sweep, impact: Interval) -> Sweep:
     worst, request = None, pair.pair.request
     if request.wants("depth") or request.max_thickness is not None:
-        worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
-    return _swept(
-        impact,
-        pair.tolerance,
-        pair.steps,
-        "penetrating",
-        **pair.posed(upper),
-        point=impact_point(pair.placed(upper), pair.path_length(impact.lower, upper)),
-        worst=_worst_pose(pair, worst),
-    )
+        worst = least_distance(pair) if pair.convex else deepest_pose(pair, impact[1])
+    point = impact_point(pair.placed(impact[1]), pair.path_length(*impact))
+    return replace(swept, **pair.posed(impact[1]), point=point, worst=_worst_pose(pair, worst))
 
 
-def _free(pair: MovingPair, impact: Impact) -> Sweep:
-    worst, clearance = _nearest(pair, impact), pair.pair.request.clearance
+def _free(pair: MovingPair, swept: Sweep) -> Sweep:
+    worst, clearance = _nearest(pair, swept), pair.pair.request.clearance
     if worst is not None and clearance and worst.lower < clearance <= worst.upper:
         worst = _as_placed(pair, worst, clearance)
-    relation = _relation_apart(impact, worst, pair.tolerance, clearance)
-    holes = holed(pair.pair)
+    relation = _relation_apart(swept.contact, worst, pair.tolerance, clearance)
+    holes, reason = holed(pair.pair), None
     if holes and not pair.hulls_apart:
-        unfilled = f"the fills of the holes of {' and '.join(holes)} were not swept"
-        impact = replace(impact, reason=unfilled)
+        reason = f"the fills of the holes of {' and '.join(holes)} were not swept"
     if worst is not None and holes and clearance:
         # The fill of a hole may be nearer than the surfaces, but not nearer than the hulls.
         hulls = least_hull_distance(pair, worst.upper, clearance)
         worst = replace(worst, lower=min(worst.lower, hulls))
-    return _swept(
-        impact,
-        pair.tolerance,
-        pair.steps,
-        relation,
-        worst=_worst_pose(pair, worst),
-        distance_at_least=impact.gap if worst is None and impact.gap > 0.0 else None,
-    )
+    return replace(swept, relation=relation, reason=reason, worst=_worst_pose(pair, worst))
 
 
-def _nearest(pair: MovingPair, impact: Impact) -> Worst | None:
+def _nearest(pair: MovingPair, swept: Sweep) -> Worst | None:
     """Return the nearest pose, as narrowly as the relation and the clearance need it; None: they do
     not need it, or it is unknown."""
-    contact, clearance = impact.contact, pair.pair.request.clearance
-    if impact.gap > 0.0 or not (pair.convex or pair.pair.may("exact")):
+    contact, clearance = swept.contact, pair.pair.request.clearance
+    if swept.distance_at_least or not (pair.convex or pair.pair.may("exact")):
         return None
     if contact is None:
         lengths = (pair.tolerance, clearance or 0.0)

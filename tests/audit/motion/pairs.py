@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from satcheck.audit.body import Box, PlacedBody, SharedMesh
+from satcheck.audit.motion.impact import first_impact as scanned
 from satcheck.audit.motion.moving_pair import MovingPair, OpenStretches
 from satcheck.audit.motion.open_stretches import open_stretches
 from satcheck.audit.motion.sweep import sweep as swept
@@ -78,6 +79,26 @@ def boxes_on(*moving: tuple[Box, MotionPath | None]) -> TrackTravel:
     paths = [path for _, path in moving]
     motions = [Motion((str(k),), path) for k, path in enumerate(paths) if path is not None]
     return TrackTravel(motions, bodies)
+
+
+class Impact(NamedTuple):
+    """What the scan for the first impact says."""
+
+    lower: float
+    upper: float | None
+    reached: float
+    contact: float | None
+    reason: str | None
+
+    @property
+    def free(self) -> bool:
+        return self.upper is None and self.reason is None
+
+
+def first_impact(pair: MovingPair) -> Impact:
+    found = scanned(pair)
+    lower, upper = found.time_of_impact or (found.reached, None)
+    return Impact(lower, upper, found.reached, found.contact, found.reason)
 
 
 def hull_of(points: Sequence[Sequence[float]]) -> Lists:

@@ -13,9 +13,8 @@ import itertools
 
 import pytest
 
-from satcheck.audit.motion.impact import first_impact
 from satcheck.scene.motion import Rotation, Translation
-from tests.audit.motion.pairs import hull_of, moving
+from tests.audit.motion.pairs import first_impact, hull_of, moving
 from tests.audit.shapes import box
 
 DOWN = Translation((0.0, 0.0, -4.0))
