@@ -58,17 +58,14 @@ class PosedPairs:
         deep = [by_rule(Judgement("error"), pair.request).severity for pair in pairs]
         self.deep_fails = np.array([SEVERITIES.index(severity) <= least for severity in deep], bool)
 
-    def sift(self, matrices: Numbers) -> Codes:
-        """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: as those of `PoseBatch`,
-        of all bodies."""
-        return self.sift_within(matrices, None, NO_END)[0]
-
-    def sift_within(
-        self, matrices: Numbers, margins: Numbers | None, steps: int
+    def sift(
+        self, matrices: Numbers, margins: Numbers | None = None, steps: int = NO_END
     ) -> tuple[Codes, int]:
-        """The same, and the steps that it took. margins: of the shape of the result; pairs are
-        APART only if they are farther apart by this much, and those with NaN stay OPEN. steps: the
-        most; beyond them pairs stay OPEN, too."""
+        """Return OPEN, APART, DEEP or UNDECIDED, shape (poses, pairs), and the steps that it took.
+
+        matrices: as those of `PoseBatch`, of all bodies. margins: of the shape of the result; pairs
+        are APART only if they are farther apart by this much, and those with NaN stay OPEN. steps:
+        the most; beyond them pairs stay OPEN, too."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
         for pair, (a, b) in zip(self.pairs, self._places, strict=True):

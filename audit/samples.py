@@ -114,8 +114,7 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
 
 class _SortedBatch:
     """Poses whose pairs the core has sorted. found: the findings of each pose so far, by the
-    numbers of the pairs, but for those of deep overlaps. alone: poses that need a check of their
-    own."""
+    numbers of the pairs. alone: poses that need a check of their own."""
 
     def __init__(
         self,
@@ -127,10 +126,9 @@ class _SortedBatch:
         self._results, self._batch = results, batch
         self._pairs, self._meter = pairs, meter
         self._matrices = batch.matrices
-        self._sorted = pairs.sift(self._matrices)
+        self._sorted, _ = pairs.sift(self._matrices)
         self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
         self._found: dict[int, dict[int, Finding]] = {}
-        self._deep: dict[int, dict[int, Finding]] = {}
         self._alone: set[int] = set()
 
     def count(self) -> None:
@@ -145,7 +143,7 @@ class _SortedBatch:
             if row in self._alone:
                 self._results.add(self._batch, row)
             else:
-                found = self._findings(row, deep=True)
+                found = self._findings(row)
                 issues = (
                     Issue(i.code, i.severity, i.body, i.file, i.message)
                     for i in self._batch.issues(row)
@@ -172,7 +170,7 @@ class _SortedBatch:
             finding = self._results.told(deep_overlap(self._pairs.pairs[number]))
             for row in np.flatnonzero(proven[:, number]).tolist():
                 tolerance = float(tolerances[row, number])
-                self._deep.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
+                self._found.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
         return proven
 
     def _find(self, asked: NDArray[np.bool_]) -> None:
@@ -199,10 +197,8 @@ class _SortedBatch:
             self._found[row][number] = self._results.told(pair.finding)
             self._results.issues |= dict.fromkeys(pair.issues)
 
-    def _findings(self, row: int, *, deep: bool = False) -> tuple[Finding, ...]:
+    def _findings(self, row: int) -> tuple[Finding, ...]:
         found = self._found.get(row, {})
-        if deep:
-            found = found | self._deep.get(row, {})
         return tuple(found[k] for k in sorted(found) if not is_plain(found[k]))
 
     def _verdicts(self) -> dict[int, Verdict]:

@@ -26,7 +26,7 @@ from satcheck.report.request import Request
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator
 
     from satcheck.core.conventions import Vector
     from satcheck.report.report import Finding
@@ -89,7 +89,7 @@ class MovingPair:
 
     def __init__(self, pair: Pair, travel: Travel, found: OpenStretches) -> None:
         self.pair, self.posed, self._travel = pair, partial(travel.posed, pair), travel
-        self._sides, self._bodies = travel.sides(pair), (pair.a, pair.b)
+        self._sides = travel.sides(pair)
         self.framed = any(len(joints) < len(travel.above[k]) for k, joints in self._sides)
         self.pad = sum(travel.pad(k) for k, _ in self._sides)
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
@@ -154,18 +154,18 @@ class MovingPair:
     def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> float:
         """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
         is moved by `offset`. end: in the same pieces as t."""
-        hulls = self._hulls(core.safe_time, t, offset, level=gap, limit=end - t)
+        hulls = self._asked(core.safe_time, t, offset, level=gap, limit=end - t)
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
             return hulls.value
         self.hulls_apart = False
-        result = self._surfaces(core.safe_time, t, offset, level=gap, limit=end - t)
+        result = self._asked(core.safe_time, t, offset, surfaces=True, level=gap, limit=end - t)
         self.obstacle = result.triangle_a, result.triangle_b
         return max(hulls.value, result.value)
 
     def shallow(self, t: float, end: float) -> float:
         """The time for which the hulls, and so the bodies, overlap by no more than the
         tolerance."""
-        return self._hulls(core.safe_time, t, level=-self.tolerance, limit=end - t).value
+        return self._asked(core.safe_time, t, level=-self.tolerance, limit=end - t).value
 
     def least_gap(self, start: float, end: float, floor: float = 0.0) -> tuple[float, float]:
         """(lower, upper) of the signed distance of two convex bodies, or of the distance of other
@@ -174,9 +174,9 @@ class MovingPair:
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
         if self.convex:
-            result = self._hulls(core.least_gap, middle, window=window)
+            result = self._asked(core.least_gap, middle, window=window)
             return result.value, result.upper + self.pad
-        result = self._surfaces(core.least_gap, middle, window=window, floor=floor)
+        result = self._asked(core.least_gap, middle, surfaces=True, window=window, floor=floor)
         return max(result.value, 0.0), result.upper + self.pad
 
     def least_hull_gap(self, start: float, end: float) -> float:
@@ -184,7 +184,7 @@ class MovingPair:
         their depth."""
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
-        return self._hulls(core.least_gap, middle, window=window).value
+        return self._asked(core.least_gap, middle, window=window).value
 
     def placed(self, t: float) -> Pair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
@@ -235,36 +235,36 @@ class MovingPair:
             raise BudgetSpent
         self.pair.sweep_steps += steps
 
-    def _hulls(
-        self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
-    ) -> core.MotionAnswer:
-        """Asks about the hulls of the bodies, or their curved shapes."""
-        return self._asked(ask, t, offset, [_shape_of(b) for b in self._bodies], **bounds)
-
-    def _surfaces(
-        self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
-    ) -> core.MotionAnswer:
-        """Asks about the surfaces of the bodies, or their curved shapes."""
-        both = self._bodies
-        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b in both]
-        result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
-        self.visits += result.visits
-        self.pair.sweep_steps += STEPS_OF_VISIT * result.visits
-        return result
-
     def _asked(
-        self, ask: Ask, t: float, offset: Vector, shapes: Sequence[Shaped], **bounds: float
+        self,
+        ask: Ask,
+        t: float,
+        offset: Vector = ORIGIN,
+        *,
+        surfaces: bool = False,
+        **bounds: float,
     ) -> core.MotionAnswer:
+        """Ask about the hulls of the bodies, or about their surfaces. Curved shapes stand for
+        both."""
         self.steps += 1
         if self.steps > self._most_steps or self.visits >= VISITS:
             raise BudgetSpent
         self._spend(STEPS_OF_QUERY)
-        (a, frame_a), (b, frame_b) = shapes
+        (a, frame_a), (b, frame_b) = (
+            (body.surface(), IDENTITY) if surfaces and not body.curved else _shape_of(body)
+            for body in (self.pair.a, self.pair.b)
+        )
         side_a, side_b = self._sides
         span = bounds.get("limit", bounds.get("window", 0.0))
         moving_a = self._travel.moving(side_a, t, span, offset, frame_a)
         moving_b = self._travel.moving(side_b, t, span, ORIGIN, frame_b)
-        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._rates(t)[1], **bounds)
+        if surfaces:
+            bounds["work"] = VISITS - self.visits
+        answer = ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._rates(t)[1], **bounds)
+        if surfaces:
+            self.visits += answer.visits
+            self.pair.sweep_steps += STEPS_OF_VISIT * answer.visits
+        return answer
 
 
 def holed(pair: Pair) -> list[str]:

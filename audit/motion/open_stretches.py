@@ -91,9 +91,7 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
         at = travel.at(middle)
         half = np.nextafter(np.maximum(part.end - middle, middle - part.start), inf)
         travelled = _travelled(travel, at, pairs, half, part.active)
-        codes, spent = posed.sift_within(
-            at.placements(ids, len(middle)), travelled + bands, max(left, 0)
-        )
+        codes, spent = posed.sift(at.placements(ids, len(middle)), travelled + bands, max(left, 0))
         left -= spent
         hits = np.where(codes == DEEP, part.start[:, None], inf)
         first_hit = np.minimum(first_hit, hits.min(axis=0))

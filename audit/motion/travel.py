@@ -123,7 +123,8 @@ class Moments(ABC):
     def centre(self, k: int) -> Numbers:
         """Return the centre of the ball around a body, shape (moments, 3)."""
         pose, (centre, _) = self.pose(k), self._travel.ball(k)
-        return np.einsum("ijm,j->mi", pose[:, :3], centre) + pose[:, 3].T
+        at: Numbers = np.einsum("ijm,j->mi", pose[:, :3], centre) + pose[:, 3].T
+        return at
 
     def placements(self, ids: Sequence[str], count: int) -> Numbers:
         """Return the placements of these bodies at so many moments, shape (moments, bodies, 12)."""
