@@ -21,7 +21,7 @@ from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.planner import ALWAYS
 from satcheck.core.curved.placed import rows_of
 from satcheck.core.transform import Transform, placed
-from satcheck.report.report import OVERLAPS
+from satcheck.report.report import OVERLAPS, Effect
 from satcheck.report.request import Request
 from satcheck.scene.bodies import IDENTITY
 
@@ -209,7 +209,9 @@ class MovingPair:
         """The finding at t, exact for the poses rounded to float64. clearance: it has to keep.
         tolerance: instead of the touch band of the sweep."""
         placed = self.placed(t)
-        by = {"overlap": ALWAYS, "distance": ALWAYS} if clearance else placed.request.by
+        by: dict[Effect, str] = {"overlap": ALWAYS}
+        if clearance:
+            by["distance"] = ALWAYS
         width = self.tolerance if tolerance is None else tolerance
         request = Request(by, tolerance=width, clearance=clearance)
         return self.found(replace(placed, request=request))

@@ -2,7 +2,7 @@
 
 In the middle of an interval the core proves two bodies apart by more than they travel until its
 ends. Then they are apart in all of the interval. Else the interval is halved, until they travel
-little: a sweep goes through it. Schwarzer, Saha, Latombe (2005), see `joint_travel.py`. All pairs
+little: a sweep goes through it. Schwarzer, Saha, Latombe (2005), see `travel.py`. All pairs
 are asked at once, on joints as on tracks.
 """
 
