@@ -82,17 +82,6 @@ def _swept_along(moving: MovingPair) -> Sweep:
     return replace(swept, steps=moving.steps)
 
 
-def _relation_apart(
-    contact: float | None, worst: Worst | None, tolerance: float, clearance: float | None
-) -> SweptRelation:
-    """The relation of bodies that stay apart, or within the touch band, during the whole motion.
-    worst: the nearest pose, as far as it is known."""
-    upper = math.inf if worst is None else worst.upper
-    if contact is not None or upper <= tolerance:
-        return "touching"
-    return "near" if upper < (clearance or 0.0) else "separated"
-
-
 def _worst_pose(pair: MovingPair, worst: Worst | None) -> WorstPose | None:
     """Return the worst pose as a report states it."""
     if worst is None:
@@ -122,7 +111,10 @@ def _free(pair: MovingPair, swept: Sweep) -> Sweep:
     worst, clearance = _nearest(pair, swept), pair.pair.request.clearance
     if worst is not None and clearance and worst.lower < clearance <= worst.upper:
         worst = _as_placed(pair, worst, clearance)
-    relation = _relation_apart(swept.contact, worst, pair.tolerance, clearance)
+    upper = math.inf if worst is None else worst.upper
+    relation: SweptRelation = "near" if upper < (clearance or 0.0) else "separated"
+    if swept.contact is not None or upper <= pair.tolerance:
+        relation = "touching"
     holes, reason = holed(pair.pair), None
     if holes and not pair.hulls_apart:
         reason = f"the fills of the holes of {' and '.join(holes)} were not swept"

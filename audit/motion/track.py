@@ -155,13 +155,16 @@ class TrackMoments(Moments):
 
     @kept
     def joint(self, j: int) -> Rates:
-        rows = [(piece, t) for t in self._times for piece in (self._tracks[j].piece_at(t),)]
-        return Rates(
-            np.array([piece.axis for piece, _ in rows]),
-            np.array([piece.centre_at(t) for piece, t in rows]),
-            np.array([math.radians(p.degrees) / (p.end - p.start) for p, _ in rows]),
-            np.array([piece.velocity for piece, _ in rows]),
+        pieces, times = self._tracks[j].pieces, np.array(self._times)
+        at = np.searchsorted([piece.start for piece in pieces], times, "right") - 1
+        axes, centres, slides = (
+            np.array(own)[at]
+            for own in zip(*((p.axis, p.centre, p.velocity) for p in pieces), strict=True)
         )
+        starts = np.array([piece.start for piece in pieces])[at]
+        rates = np.array([math.radians(p.degrees) / (p.end - p.start) for p in pieces])[at]
+        with np.errstate(all="ignore"):  # beyond float64 nothing is proven
+            return Rates(axes, centres + slides * (times - starts)[:, None], rates, slides)
 
     @kept
     def placement(self, k: int) -> Numbers:

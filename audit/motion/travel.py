@@ -308,27 +308,22 @@ class Travel(ABC):
     def _at_ends(self) -> Moments:
         return self.at(self.part_times)
 
-    @cached_property
-    def _in_parts(self) -> Moments:
-        return self.at(0.5 * (self.part_times[:-1] + self.part_times[1:]))
-
     @kept
     def swept(self, k: int) -> SweptBoxes:
         """Return the boxes of a body over the parts of its motion."""
         placed = self.bodies[k].bounds
         if not self.above[k]:
             return SweptBoxes(placed, *(np.array([corner]) for corner in placed))
-        start, end = self.part_times[:-1], self.part_times[1:]
-        half = 0.5 * (end - start) * _ROUNDED_UP
+        length = np.append(np.diff(self.part_times), 0.0) * _ROUNDED_UP  # of the part that begins
         with np.errstate(all="ignore"):
             pose = self._at_ends.pose(k)
             ends = np.einsum("ijm,cj->mci", pose[:, :3], np.array(corners(placed)))
             ends += pose[:, 3].T[:, None]
             low, high = ends.min(axis=1), ends.max(axis=1)
-            speed, acceleration = self.fastest(self._in_parts, half, k, self.above[k])
+            speed, acceleration = self.fastest(self._at_ends, length, k, self.above[k])
             # How far a point gets from the line between its places at both ends.
-            bend = np.minimum(0.5 * acceleration * half, speed) * half
-            grown = (bend + self.pad(k))[:, None]
+            bend = np.minimum(acceleration * length / 8.0, speed / 2.0) * length
+            grown = (bend[:-1] + self.pad(k))[:, None]
             low = np.minimum(low[:-1], low[1:]) - grown
             high = np.maximum(high[:-1], high[1:]) + grown
         beyond = ~(np.isfinite(low) & np.isfinite(high)).all(axis=1)
