@@ -64,8 +64,8 @@ class PosedPairs:
         """Return OPEN, APART, DEEP or UNDECIDED, shape (poses, pairs), and the steps that it took.
 
         matrices: as those of `PoseBatch`, of all bodies. margins: of the shape of the result; pairs
-        are APART only if they are farther apart by this much, and those with NaN stay OPEN. steps:
-        the most; beyond them pairs stay OPEN, too."""
+        are APART only if they are farther apart by this much, those with NaN stay OPEN, and none is
+        DEEP. steps: the most; beyond them pairs stay OPEN, too."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
         for pair, (a, b) in zip(self.pairs, self._places, strict=True):
@@ -75,7 +75,7 @@ class PosedPairs:
                 tolerance = max(resolutions[a] + resolutions[b], sum(deviations))
             off = max(self._bodies[body].surface_tolerance for body in (a, b))
             gap_limit = max(pair.request.clearance or 0.0, tolerance)
-            never = pair.request.limited
+            never = pair.request.limited or margins is not None
             depth = inf if never else max(0.5 * tolerance, off)
             # A crossing proves no thickness, and closed bodies with a thin overlap may touch.
             closed = all(self._bodies[body].solid for body in (a, b))

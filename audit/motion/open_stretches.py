@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from satcheck.audit.motion.moving_pair import OpenStretches, Stretch, holed
 from satcheck.audit.motion.travel import Moments, Numbers, Travel
 from satcheck.audit.pair import STEPS_OF_SCENE, STEPS_OF_TRIANGLE, Pair
-from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
+from satcheck.audit.posed_pairs import APART, PosedPairs
 
 Flags = NDArray[np.bool_]
 
@@ -77,7 +77,7 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
     together = max(min(TOGETHER, ENTRIES // (len(ids) + len(pairs))), 1)
     most = INTERVALS + INTERVALS_A_PIECE * (len(times) - 1)
     found: list[list[Stretch]] = [[] for _ in pairs]
-    steps, first_hit = np.zeros(len(found), int), np.full(len(found), inf)
+    steps = np.zeros(len(found), int)
     left = STEPS_OF_SCENE + STEPS_A_PIECE * (len(times) - 1) * len(found)
     left += sum(STEPS_OF_TRIANGLE * body.shared.triangles for body in bodies.values())
     waiting = [_Intervals(times[:-1], times[1:], np.ones((len(times) - 1, len(found)), bool))]
@@ -93,10 +93,8 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
         travelled = _travelled(travel, at, pairs, half, part.active)
         codes, spent = posed.sift(at.placements(ids, len(middle)), travelled + bands, max(left, 0))
         left -= spent
-        hits = np.where(codes == DEEP, part.start[:, None], inf)
-        first_hit = np.minimum(first_hit, hits.min(axis=0))
         unproven = part.active & (codes != APART)
-        worth = (travelled > near) & (steps < most) & (part.start[:, None] <= first_hit)
+        worth = (travelled > near) & (steps < most)
         worth &= left > 0
         for row, k in np.argwhere(unproven & ~worth).tolist():
             found[k].append((float(part.start[row]), float(part.end[row])))

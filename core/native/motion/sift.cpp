@@ -195,7 +195,8 @@ class PoseSifter {
     budget_.spend(kStepsOfPair);
     if (budget_.is_spent()) return Sifted::open;
     const double depth = pair.depth + rounding;
-    if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
+    const bool asked = pair.depth < INFINITY;
+    if (asked && have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
     const bool have_meshes = a.has_mesh() && b.has_mesh();
     // A crossing of a mesh around a body proves no overlap.
     const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, have_meshes ? pair.crossing : INFINITY, budget_);
@@ -204,7 +205,7 @@ class PoseSifter {
     if (meeting == Meeting::deep) return Sifted::deep;
     if (meeting == Meeting::by_fill && have_meshes && fills_differ(a, at_a, b, at_b, rounding)) return Sifted::undecided;
     const Surface *in_a = a.material(), *in_b = b.material();
-    if (!in_a || !in_b) return Sifted::open;
+    if (!asked || !in_a || !in_b) return Sifted::open;
     const auto crossing = have_meshes ? segment : crossing_of(*in_a, at_a, *in_b, at_b, budget_);
     const bool deep = crossing && ball_beside(*crossing, *in_a, at_a, *in_b, at_b, depth);
     return deep ? Sifted::deep : Sifted::open;

@@ -18,7 +18,8 @@ namespace satcheck {
 enum class Sifted : std::uint8_t {
   open,       // none of these is proven
   apart,      // by more than the gap limit of the pair
-  deep,       // a point lies deeper in both bodies than `depth`, or no translation up to `crossing` ends the overlap
+  deep,       // a point lies deeper in both bodies than `depth`, or no translation up to `crossing` ends the overlap;
+              // not looked for if `depth` is infinite
   undecided,  // the surfaces are apart, and whether the bodies overlap depends on the fill of a hole
 };
 
