@@ -168,17 +168,19 @@ nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, tria
       .def_prop_ro("settled", [](const Climb& c) { return c.verdict.settled; })
       .def_prop_ro("proven", [](const Climb& c) { return c.verdict.proven; })
       .def_prop_ro("gap_lower", [](const Climb& c) { return c.verdict.gap; })
-      .def_prop_ro("signed_distance", &signed_distance, nb::rv_policy::reference_internal)
+      .def_prop_ro("signed_distance", &signed_distance, nb::rv_policy::reference_internal,
+                   nb::sig("def signed_distance(self) -> PairResult | None"))
       .def_prop_ro("crossing", &crossing_of)
       .def_prop_ro("point", [](const Climb& c) { return c.triangles ? corner(c.triangles->point) : std::nullopt; })
-      .def_prop_ro("hole", &hole_in_the_way, nb::rv_policy::reference_internal)
+      .def_prop_ro("hole", &hole_in_the_way, nb::rv_policy::reference_internal, nb::sig("def hole(self) -> OpenHole | None"))
       .def_prop_ro("band", [](const Climb& c) { return band_word(c.verdict.band); },
                    nb::sig("def band(self) -> typing.Literal['open', 'within', 'deeper', 'hidden'] | None"))
       .def_ro("thick", &Climb::thick)
       .def_ro("least_depth", &Climb::least_depth)
       .def_prop_ro("deepest", &deepest)
       .def_prop_ro("way_out", [](const Climb& c) { return c.way_within ? corner(c.way_within->move) : std::nullopt; })
-      .def_prop_ro("gap", [](const Climb& c) { return if_known(c.gap); }, nb::rv_policy::reference_internal)
+      .def_prop_ro("gap", [](const Climb& c) { return if_known(c.gap); }, nb::rv_policy::reference_internal,
+                   nb::sig("def gap(self) -> MeshDistance | None"))
       .def_ro("gap_of_holes", &Climb::gap_of_holes)
       .def_ro("box_gap", &Climb::box_gap)
       .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); },
@@ -187,9 +189,10 @@ nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, tria
       .def_ro("both_convex", &Climb::both_convex)
       .def_prop_ro("nesting",
                    [](const Climb& c) { return c.nesting ? std::optional(name_of(*c.nesting)) : std::nullopt; })
-      .def_prop_ro("hulls", [](const Climb& c) { return if_known(c.hulls); }, nb::rv_policy::reference_internal)
-      .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); },
-                   nb::rv_policy::reference_internal)
+      .def_prop_ro("hulls", [](const Climb& c) { return if_known(c.hulls); }, nb::rv_policy::reference_internal,
+                   nb::sig("def hulls(self) -> PairResult | None"))
+      .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); }, nb::rv_policy::reference_internal,
+                   nb::sig("def triangles(self) -> MeshRelation | None"))
       .def_ro("nanoseconds", &Climb::nanoseconds)
       .def_prop_ro("band_nanoseconds", [](const Climb& c) { return c.nanoseconds[kBand]; });
 }

@@ -3,6 +3,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cmath>
@@ -71,10 +72,10 @@ Query query_from(const std::string& name) {
 
 const char* name_of(Reason reason) { return reason == Reason::none ? "" : "bounds-not-closed"; }
 
-std::optional<double> if_known(const PairResult& r, double value) {
+std::optional<double> known(const PairResult& r, double value) {
   return r.has_distance ? std::optional(value) : std::nullopt;
 }
-std::optional<Tuple3> if_known(const PairResult& r, Vec3 v) {
+std::optional<Tuple3> known(const PairResult& r, Vec3 v) {
   return r.has_distance ? std::optional(to_tuple(v)) : std::nullopt;
 }
 std::int64_t index_or_minus_one(std::uint32_t index) {
@@ -105,12 +106,12 @@ void bind_pair_result(nb::module_& m) {
       .def_prop_ro("feature", [](const PairResult& r) { return name_of(r.feature); })
       .def_prop_ro("index_a", [](const PairResult& r) { return index_or_minus_one(r.index_a); })
       .def_prop_ro("index_b", [](const PairResult& r) { return index_or_minus_one(r.index_b); })
-      .def_prop_ro("distance", [](const PairResult& r) { return if_known(r, r.distance); })
-      .def_prop_ro("lower", [](const PairResult& r) { return if_known(r, r.lower); })
-      .def_prop_ro("upper", [](const PairResult& r) { return if_known(r, r.upper); })
-      .def_prop_ro("normal", [](const PairResult& r) { return if_known(r, r.normal); })
-      .def_prop_ro("witness_a", [](const PairResult& r) { return if_known(r, r.witness_a); })
-      .def_prop_ro("witness_b", [](const PairResult& r) { return if_known(r, r.witness_b); })
+      .def_prop_ro("distance", [](const PairResult& r) { return known(r, r.distance); })
+      .def_prop_ro("lower", [](const PairResult& r) { return known(r, r.lower); })
+      .def_prop_ro("upper", [](const PairResult& r) { return known(r, r.upper); })
+      .def_prop_ro("normal", [](const PairResult& r) { return known(r, r.normal); })
+      .def_prop_ro("witness_a", [](const PairResult& r) { return known(r, r.witness_a); })
+      .def_prop_ro("witness_b", [](const PairResult& r) { return known(r, r.witness_b); })
       .def_ro("portal_rounds", &PairResult::portal_rounds)
       .def_ro("gjk_iterations", &PairResult::gjk_iterations)
       .def_ro("epa_iterations", &PairResult::epa_iterations)

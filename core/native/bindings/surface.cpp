@@ -119,7 +119,8 @@ that of the surfaces without fills. decided: False if that takes more steps than
       .def_prop_ro("relation", [](const MeshRelation& r) { return r.decided ? name_of(r.relation) : "indeterminate"; })
       .def_ro("proven", &MeshRelation::proven)
       .def_ro("decided", &MeshRelation::decided)
-      .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal)
+      .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal,
+                   nb::sig("def hole(self) -> OpenHole | None"))
       .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })
       .def_prop_ro("point",

@@ -94,6 +94,8 @@ stop: "narrow", "decided" (the interval lies on one side of the limit) or "work 
 centre: of the largest ball in that; lower: how thick the overlap is around it, 0 where it does not lie in both, or may
 belong to another component.)");
   m.def("fit_by_faces", &counted_fit, "a"_a, "b"_a, "length"_a, "work"_a, nb::call_guard<nb::gil_scoped_release>(),
+        nb::sig("def fit_by_faces(a: Surface, b: Surface, length: float, work: int) -> "
+                "tuple[typing.Literal['deeper', 'thin', 'fit'] | None, int]"),
         R"(Whether a ball thicker than `length`, > 0, lies in both solids, by the planes of faces that lie in each other, to the last
 digits of float64. "deeper": one does. "thin": none does. "fit": none does, and wherever they meet both are thicker
 than that, so that neither is a sheet or a wire that passes through the other. None: `work` steps, each about a
