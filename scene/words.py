@@ -55,7 +55,8 @@ def with_closed_brackets(glob: str) -> str:
     `fnmatch` looks through the rest of the text for the end of each of these, one character at a
     time: that takes minutes for a few ten thousand of them.
     """
-    parts, at, last = [], 0, glob.rfind("]")
+    parts: list[str] = []
+    at, last = 0, glob.rfind("]")
     while at < len(glob):
         end = at
         if glob[at] == "[":
