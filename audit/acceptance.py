@@ -18,7 +18,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Issue
 from satcheck.scene.bodies import Accepted
 from satcheck.scene.issue import BLOCKING, CODES
-from satcheck.scene.words import meant
+from satcheck.scene.words import meant, with_closed_brackets
 
 # The code of an issue about an acceptance that accepts nothing.
 UNUSED_ACCEPTANCE = "unused-acceptance"
@@ -32,7 +32,8 @@ class Acceptance(Struct, frozen=True):
 
     def accepts(self, issue: Issue) -> bool:
         names = [issue.body or "", issue.file or "", PurePath(issue.file or "").name]
-        return issue.code == self.code and any(fnmatchcase(name, self.name) for name in names)
+        glob = with_closed_brackets(self.name)
+        return issue.code == self.code and any(fnmatchcase(name, glob) for name in names)
 
 
 def acceptance(text: str) -> Acceptance:

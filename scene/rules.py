@@ -18,7 +18,7 @@ from satcheck.core.conventions import LARGEST_LENGTH
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.table import NotNegative, Table, Text
 from satcheck.scene.units import LENGTH_PATTERN
-from satcheck.scene.words import listed, meant
+from satcheck.scene.words import listed, meant, with_closed_brackets
 
 Severity = Literal["error", "warning", "note", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
@@ -109,7 +109,7 @@ class Selector(str):
             return ()
         from fnmatch import translate
 
-        matches = re.compile(translate(self.glob)).match
+        matches = re.compile(translate(with_closed_brackets(self.glob))).match
         return [name for name in names if matches(name)]
 
     def _spelt(self) -> Iterator[str]:

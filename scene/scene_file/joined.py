@@ -23,6 +23,7 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.rules import Rule, Selectable, Selector, stated_keys
 from satcheck.scene.statics import KEYS, BodyRule, StaticsTerms, joined_terms
+from satcheck.scene.words import with_closed_brackets
 
 if TYPE_CHECKING:
     from satcheck.scene.building import Input
@@ -138,7 +139,8 @@ class Joined(Struct, frozen=True):
 
 
 def _is_of(file: str, pattern: str) -> bool:
-    return any(fnmatchcase(name, pattern) for name in (file, PurePosixPath(file).name))
+    glob = with_closed_brackets(pattern)
+    return any(fnmatchcase(name, glob) for name in (file, PurePosixPath(file).name))
 
 
 def joined(scene: Scene, inputs: Sequence[Input], scales: Mapping[str, float]) -> Scene:

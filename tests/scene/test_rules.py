@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
+from fnmatch import translate
+from itertools import product
 
 import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Rule, Selector
+from satcheck.scene.words import with_closed_brackets
 from tests.report.books import Subject
 
 ANY = Selector("*")
@@ -108,3 +112,17 @@ def test_a_rule_that_makes_no_sense_is_refused(keys: dict) -> None:
 def test_the_name_says_where_or_what() -> None:
     assert Rule(a=ANY, b=Selector("bolt"), allowed=True).name == "* and bolt"
     assert Rule(a=ANY, b=ANY, allowed=True, where="scene.toml:12").name == "scene.toml:12"
+
+
+def test_brackets_are_closed_without_a_change_of_meaning() -> None:
+    texts = ["".join(text) for n in range(4) for text in product("[]!a", repeat=n)]
+    for n in range(5):
+        for glob in map("".join, product("[]!a", repeat=n)):
+            before, after = (re.compile(translate(g)) for g in (glob, with_closed_brackets(glob)))
+            assert all(bool(before.match(t)) == bool(after.match(t)) for t in texts), glob
+
+
+def test_many_brackets_that_nothing_closes_take_no_minutes() -> None:
+    assert with_closed_brackets("[" * 3 + "a") == "[[][[][[]a"
+    assert not matches("[" * 100_000, "[")
+    assert matches("*" + "[" * 100_000, "[" * 100_001)
