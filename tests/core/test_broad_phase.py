@@ -135,3 +135,15 @@ def test_pairs_need_memory_only_as_they_are_taken() -> None:
     finally:
         tracemalloc.stop()
     assert peak < found.count()  # less than a byte for each pair
+
+
+@pytest.mark.parametrize("exempt_kinds", [[], [(0, 0)], [(0, 1)], [(0, 0), (1, 2)]])
+def test_pairs_of_heaps_are_counted(exempt_kinds: list[tuple[int, int]]) -> None:
+    """Boxes of three kinds in heaps, as moved copies; some heaps touch, some are a reach apart."""
+    source = random.Random(len(exempt_kinds))
+    boxes = [box_at([2.0 * source.randrange(3), 0.0, 0.0], [2.0] * 3) for _ in range(150)]
+    kinds = sorted(source.randrange(3) for _ in boxes)
+    reach = [source.choice([0.0, 1.0]) for _ in boxes]
+    found = close_pairs(boxes, reach, kinds, exempt_kinds)
+    close = among_all_pairs(boxes, reach)
+    assert found == [(i, j) for i, j in close if (kinds[i], kinds[j]) not in exempt_kinds]

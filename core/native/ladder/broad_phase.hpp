@@ -36,16 +36,19 @@ class ClosePairs {
   std::size_t count() const;
 
  private:
-  // Calls found(j) for the boxes j > i close to box i, in any order.
-  template <class Found>
-  void visit_partners(std::uint32_t i, const Found& found) const;
+  // Of all boxes below a node: their kind, or that it is mixed, the highest number, how many they are, and what all of
+  // them reach: a box meets each of them if it meets this one, whose min may exceed its max.
+  struct Below {
+    std::uint32_t kind, last, count;
+    Aabb shared;
+  };
+
+  // Calls found(j) for the boxes from `lowest` on that are close to box i, in any order; passes over what lies below a
+  // node if is_done(below) says so.
+  template <class IsDone, class Found>
+  void visit_close(std::uint32_t i, std::uint32_t lowest, const IsDone& is_done, const Found& found) const;
   bool are_exempt(std::uint32_t kind_a, std::uint32_t kind_b) const;
   void sum_up_nodes();
-
-  // Of all boxes below a node: their kind, or that it is mixed, and the highest number.
-  struct Below {
-    std::uint32_t kind, last;
-  };
 
   CloseQuery query_;
   Bvh bvh_;  // over the boxes grown by their reaches
