@@ -590,9 +590,6 @@ class ThicknessInterval:
 def component_balls(
     a: Surface, b: Surface, overlap: OverlapComponents
 ) -> list[ThicknessInterval]: ...
-def fit_by_faces(
-    a: Surface, b: Surface, length: float, work: int
-) -> tuple[Literal["deeper", "thin", "fit"] | None, int]: ...
 def free_when_shrunk(a: Surface, b: Surface, most_a: float, most_b: float) -> bool: ...
 def search_thickness(
     a: Surface,

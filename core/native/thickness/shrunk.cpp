@@ -23,6 +23,8 @@ constexpr double kShort = 1 - 1e-6;
 // A side moves by this share of the most that a vertex may move: the corner of a cube moves sqrt(3) times as far as its
 // sides.
 constexpr double kShare = 0.57;
+// A vertex goes as far along its way as it may once the coordinates are rounded: by the first of these shares.
+constexpr double kShortened[] = {1, 0.875, 0.75, 0.5};
 
 void add(std::vector<Vec3>& normals, Vec3 normal) {
   for (const Vec3 known : normals) {
@@ -71,8 +73,12 @@ Surface shrunk(const Surface& surface, double most, const Aabb& other) {
     Vec3 way = inwards(here) * (kShare * most);
     const double length = norm(way);
     if (length > most * kShort) way = way * (most * kShort / length);
-    const Vec3 there = v + way;
-    if (norm(there - v) <= most * kShort * (1 + 8 * kUnitRoundoff)) v = there;
+    for (const double share : kShortened) {
+      const Vec3 there = v + way * share;
+      if (!(norm(there - v) <= most * kShort * (1 + 8 * kUnitRoundoff))) continue;
+      v = there;
+      break;
+    }
   }
   return refitted_surface(surface, std::move(moved));
 }
