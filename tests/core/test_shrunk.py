@@ -27,7 +27,7 @@ def surface(solid: Solid | list[Face], by: Placing = HERE, off: float = 0.0) -> 
 
 
 def decided(a: Surface, b: Surface, length: float) -> bool | None:
-    """Return whether a ball thicker than the length lies in both; None: the search leaves it open."""
+    """Return whether a ball thicker than the length lies in both; None: the search is undecided."""
     found = search_thickness(a, b, width=0.0, work=WORK, limit=length)
     return True if found.lower > length else False if found.upper <= length else None
 
