@@ -10,7 +10,7 @@ import pytest
 from satcheck.core import Mesh, Surface, free_when_shrunk, search_thickness
 from tests.core.voxel_solids import VoxelSolid
 from tests.core.voxel_solids import box as voxel_box
-from tests.fits.files import Placing, placing
+from tests.fits.files import Placing, placed, placing
 from tests.fits.solids import KINDS, Face, Solid, pierced, prism, rectangle, regular, solid_of
 
 WORK = 10_000_000
@@ -60,6 +60,22 @@ def test_fits_and_interferences_as_exact_as_float64(seed: int) -> None:
     larger = surface(make(Random(state), 8 * off).inner, by)
     assert not free_when_shrunk(outer, larger, off, off)
     assert decided(outer, larger, 2 * off) is True
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_fits_of_rounded_coordinates(seed: int) -> None:
+    """No vertex has to move farther than half of the diagonal of a cell of the grid: back."""
+    rng = Random(f"rounded {seed}")
+    make, state, by = rng.choice(KINDS), rng.getrandbits(64), placing(rng, 2.0)
+    fit = make(Random(state), 0.0)
+    one, other = (placed(solid_of(faces, rng), by) for faces in (fit.outer, fit.inner))
+    a, b = (
+        Surface(Mesh(np.round(solid.vertices, 9), np.array(solid.triangles, np.uint32)), True)
+        for solid in (one, other)
+    )
+    off = 0.5e-9 * np.sqrt(3)
+    assert free_when_shrunk(a, b, off, off)
+    assert free_when_shrunk(b, a, off, off)
 
 
 @pytest.mark.parametrize("seed", range(25))
