@@ -20,22 +20,21 @@ TAKEN = 100_000
 class ClosePairs:
     """Checked pairs of placed bodies, sorted, whose boxes are close enough.
 
-    swept: the world box of a body over its whole motion, from its id and its box as placed. keep:
-    an iteration drops the other pairs.
+    swept: the world box of a body over its whole motion. keep: an iteration drops the other pairs.
     """
 
     def __init__(
         self,
         bodies: PlacedBodies,
         planner: Planner,
-        swept: Callable[[str, Bounds], Bounds] | None = None,
+        swept: Callable[[str], Bounds] | None = None,
         keep: Keep | None = None,
     ) -> None:
         self._index, book = tuple(bodies.placed), bodies.book
         place = {body: k for k, body in enumerate(self._index)}
         boxes = {k: body.bounds for k, body in bodies.placed.items()}
         if swept is not None:
-            boxes = {k: swept(bodies.ids[k], box) for k, box in boxes.items()}
+            boxes = {k: swept(bodies.ids[k]) for k in boxes}
         endless = [(i, j) for i, j, _ in bodies.endless_pairs()]
         exempt = [
             (place[i], place[j])

@@ -19,7 +19,7 @@ from satcheck.audit.stages.contacts import find_contacts
 from satcheck.audit.stages.cross_check import ask_peers
 from satcheck.audit.stages.depth import measure_depth
 from satcheck.audit.stages.gap import measure_gap
-from satcheck.audit.stages.relation import apart_by_boxes, open_hole, settle, why_open
+from satcheck.audit.stages.relation import apart_by_boxes, settle, why_open
 from satcheck.audit.stages.thickness import measure_thickness, thickness_ahead, why_not_thick
 from satcheck.audit.stages.touch_band import band_of, touch_band
 from satcheck.audit.stages.volume import measure_volume
@@ -35,7 +35,6 @@ from satcheck.report.judge import (
 from satcheck.report.report import OVERLAPS, Effect, Finding
 
 if TYPE_CHECKING:
-    from satcheck import core
     from satcheck.audit.pair import Pair
     from satcheck.core import Climb
 
@@ -113,15 +112,6 @@ def deep_overlap(pair: Pair) -> Finding:
     draft = Draft(pair, relation="penetrating", exact_relation="penetrating")
     draft.record("sort", "penetrating", "an overlap beyond the touch band")
     return _judged_draft(draft)
-
-
-def open_by_fill(pair: Pair, hole: core.OpenHole) -> Finding:
-    """Return the finding of bodies with separate surfaces of which the fill of this hole decides
-    whether they overlap."""
-    draft = Draft(pair)
-    draft.record("sort", "indeterminate", "the fill of a hole decides")
-    draft.reason_code = "open-hole"
-    return draft.indeterminate(open_hole(pair, hole))
 
 
 def _run_on_request(draft: Draft) -> None:

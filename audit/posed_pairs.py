@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 from satcheck import core
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody, world_bounds
-from satcheck.audit.finding import open_by_fill
 from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.core.conventions import Vector
 from satcheck.core.steps import is_careful
 from satcheck.report.judge import Judgement, by_rule
-from satcheck.report.report import SEVERITIES, Finding
+from satcheck.report.report import SEVERITIES
 from satcheck.scene.bodies import IDENTITY, resolution_in_world
 from satcheck.scene.half_spaces import holds, reach_in_world
 
@@ -59,17 +58,14 @@ class PosedPairs:
         deep = [by_rule(Judgement("error"), pair.request).severity for pair in pairs]
         self.deep_fails = np.array([SEVERITIES.index(severity) <= least for severity in deep], bool)
 
-    def sift(self, matrices: Numbers) -> Codes:
-        """Shape (poses, pairs): OPEN, APART, DEEP or UNDECIDED. matrices: as those of `PoseBatch`,
-        of all bodies."""
-        return self.sift_within(matrices, None, NO_END)[0]
-
-    def sift_within(
-        self, matrices: Numbers, margins: Numbers | None, steps: int
+    def sift(
+        self, matrices: Numbers, margins: Numbers | None = None, steps: int = NO_END
     ) -> tuple[Codes, int]:
-        """The same, and the steps that it took. margins: of the shape of the result; pairs are
-        APART only if they are farther apart by this much, and those with NaN stay OPEN. steps: the
-        most; beyond them pairs stay OPEN, too."""
+        """Return OPEN, APART, DEEP or UNDECIDED, shape (poses, pairs), and the steps that it took.
+
+        matrices: as those of `PoseBatch`, of all bodies. margins: of the shape of the result; pairs
+        are APART only if they are farther apart by this much, those with NaN stay OPEN, and none is
+        DEEP. steps: the most; beyond them pairs stay OPEN, too."""
         resolutions = [self._resolution(k, matrices) for k in range(len(self._bodies))]
         bounds = []
         for pair, (a, b) in zip(self.pairs, self._places, strict=True):
@@ -79,7 +75,7 @@ class PosedPairs:
                 tolerance = max(resolutions[a] + resolutions[b], sum(deviations))
             off = max(self._bodies[body].surface_tolerance for body in (a, b))
             gap_limit = max(pair.request.clearance or 0.0, tolerance)
-            never = pair.request.limited
+            never = pair.request.limited or margins is not None
             depth = inf if never else max(0.5 * tolerance, off)
             # A crossing proves no thickness, and closed bodies with a thin overlap may touch.
             closed = all(self._bodies[body].solid for body in (a, b))
@@ -152,14 +148,6 @@ class PosedPairs:
         plain = asked & (written <= _PLAINLY_FINE * min(pair.a.diagonal, pair.b.diagonal))
         deviation = pair.a.body.file.deviation + pair.b.body.file.deviation
         own[plain] = np.maximum(written, deviation)[plain]
-
-    def by_fill(self, matrices: Numbers, row: int, number: int) -> Finding | None:
-        """Return the finding of a pair that is UNDECIDED in one of the poses; None: a climb has to
-        find the hole."""
-        a, b = self._places[number]
-        of_a, of_b = self._bodies[a].posed, self._bodies[b].posed
-        hole = core.open_hole(of_a, matrices[row, a], of_b, matrices[row, b])
-        return None if hole is None else open_by_fill(self.pairs[number], hole)
 
     def at(
         self,

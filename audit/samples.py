@@ -12,8 +12,7 @@ does not say all that its finding has.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from itertools import chain
 from typing import TYPE_CHECKING
@@ -40,12 +39,12 @@ from satcheck.scene.robot import Pose
 from satcheck.scene.robot.postures import PoseBatch, pose_batches
 
 if TYPE_CHECKING:
-    from satcheck.audit.posed_pairs import Codes, Numbers
+    from satcheck.audit.posed_pairs import Codes
     from satcheck.core.peers import VolumeMeter
 
 Progress = Callable[[int, int], None]
 
-# Poses that the core sorts together. The placements of two batches are in memory at a time.
+# Poses that the core sorts together. Their placements are in memory at a time.
 BATCH = 2048
 # Pairs that climb the ladder together.
 TOGETHER = 512
@@ -81,10 +80,12 @@ def check_poses(
         if pairs is not None:
             by_volume = any(pair.request.wants("volume") for pair in pairs.pairs)
             meter = stack.enter_context(volume_meter(settings)) if by_volume else None
-            batches = sorted_and_counted(results, batches, pairs, meter)
         for batch in batches:
-            for row in range(batch.count) if pairs is None else ():
-                results.add(batch, row)
+            if pairs is not None:
+                _SortedBatch(results, batch, pairs, meter).count()
+            else:
+                for row in range(batch.count):
+                    results.add(batch, row)
             results.keep_first_poses(batch)
             for number in range(batch.first, batch.first + batch.count):
                 if progress is not None:
@@ -111,52 +112,27 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     return PosedPairs(list(bodies.placed.values()), pairs) if pairs and small else None
 
 
-def sorted_and_counted(
-    results: SampleResults,
-    batches: Iterator[PoseBatch],
-    pairs: PosedPairs,
-    meter: VolumeMeter | None,
-) -> Iterator[PoseBatch]:
-    """While one batch is counted, the core sorts the pairs of the next one in a second thread. With
-    one job it does not."""
-    waiting: _SortedBatch | None = None
-    with ThreadPoolExecutor(1) as beside:
-        for batch in batches:
-            matrices = batch.matrices
-            sorting = beside.submit(pairs.sift, matrices)
-            if results.settings.jobs == 1:
-                wait([sorting])
-            if waiting is not None:
-                yield waiting.count()
-            waiting = _SortedBatch(results, batch, matrices, sorting, pairs, meter)
-        if waiting is not None:
-            yield waiting.count()
-
-
 class _SortedBatch:
     """Poses whose pairs the core has sorted. found: the findings of each pose so far, by the
-    numbers of the pairs, but for those of deep overlaps. alone: poses that need a check of their
-    own."""
+    numbers of the pairs. alone: poses that need a check of their own."""
 
     def __init__(
         self,
         results: SampleResults,
         batch: PoseBatch,
-        matrices: Numbers,
-        sorting: Future[Codes],
         pairs: PosedPairs,
         meter: VolumeMeter | None,
     ) -> None:
         self._results, self._batch = results, batch
-        self._matrices, self._sorting = matrices, sorting
         self._pairs, self._meter = pairs, meter
+        self._matrices = batch.matrices
+        self._sorted, _ = pairs.sift(self._matrices)
+        self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
         self._found: dict[int, dict[int, Finding]] = {}
-        self._deep: dict[int, dict[int, Finding]] = {}
         self._alone: set[int] = set()
 
-    def count(self) -> PoseBatch:
-        self._sorted = self._sorting.result()
-        self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
+    def count(self) -> None:
+        """Add what the poses say to the results."""
         self._find((self._sorted == OPEN) | _first_undecided(self._sorted))
         listed = self._listed()
         proven = self._find_deep((self._sorted == DEEP) & listed[:, None])
@@ -167,7 +143,7 @@ class _SortedBatch:
             if row in self._alone:
                 self._results.add(self._batch, row)
             else:
-                found = self._findings(row, deep=True)
+                found = self._findings(row)
                 issues = (
                     Issue(i.code, i.severity, i.body, i.file, i.message)
                     for i in self._batch.issues(row)
@@ -175,7 +151,6 @@ class _SortedBatch:
                 self._results.listed.append(
                     self._results.sample(self._batch, row, verdicts[row], found, issues)
                 )
-        return self._batch
 
     def _listed(self) -> NDArray[np.bool_]:
         """Whether each pose is listed."""
@@ -195,7 +170,7 @@ class _SortedBatch:
             finding = self._results.told(deep_overlap(self._pairs.pairs[number]))
             for row in np.flatnonzero(proven[:, number]).tolist():
                 tolerance = float(tolerances[row, number])
-                self._deep.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
+                self._found.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
         return proven
 
     def _find(self, asked: NDArray[np.bool_]) -> None:
@@ -204,21 +179,12 @@ class _SortedBatch:
         for row in np.flatnonzero(asked.any(axis=1)).tolist():
             found = self._found.setdefault(row, {})
             numbers = [k for k in np.flatnonzero(asked[row]).tolist() if k not in found]
-            told = {
-                k: self._results.told(finding)
-                for k in numbers
-                if self._sorted[row, k] == UNDECIDED
-                and (finding := self._pairs.by_fill(self._matrices, row, k))
-            }
-            numbers = [k for k in numbers if k not in told or self._pairs.pairs[k].on_half_space]
             try:
                 pairs = self._pairs.at(self._matrices, row, numbers, self._meter)
             except (ValueError, OverflowError):  # the check of this pose says what is wrong
                 self._alone.add(row)
                 continue
-            found |= told
-            both = zip(numbers, pairs, strict=True)
-            climbing += [(row, k, pair) for k, pair in both if k not in told]
+            climbing += [(row, k, pair) for k, pair in zip(numbers, pairs, strict=True)]
             if len(climbing) >= TOGETHER:
                 self._climb(climbing)
                 climbing = []
@@ -231,10 +197,8 @@ class _SortedBatch:
             self._found[row][number] = self._results.told(pair.finding)
             self._results.issues |= dict.fromkeys(pair.issues)
 
-    def _findings(self, row: int, *, deep: bool = False) -> tuple[Finding, ...]:
+    def _findings(self, row: int) -> tuple[Finding, ...]:
         found = self._found.get(row, {})
-        if deep:
-            found = found | self._deep.get(row, {})
         return tuple(found[k] for k in sorted(found) if not is_plain(found[k]))
 
     def _verdicts(self) -> dict[int, Verdict]:

@@ -8,20 +8,19 @@ such a tuple by an entry point of the group `satcheck.readers`, `satcheck.format
 
 from __future__ import annotations
 
+import os
 import re
+import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, Literal, get_args
 
 from msgspec import Struct, convert
 from msgspec.structs import asdict
-
-if TYPE_CHECKING:
-    from importlib.metadata import Distribution
 
 _PACKAGE = "satcheck.plugins"
 Group = Literal["readers", "formats", "commands"]
@@ -64,26 +63,42 @@ def versions() -> tuple[str, ...]:
     """Return what answers depend on beside satcheck: the installed packages that it names, with
     their versions, and those that register plug-ins. Of these the modules count too, by size and
     time: who writes a plug-in changes it more often than its version."""
-    from importlib.metadata import PackageNotFoundError, distribution, entry_points, requires
+    packages = _packages()
+    about = _stated(packages["satcheck"], "METADATA") if "satcheck" in packages else ""
+    needs = re.findall(r"^Requires-Dist: *([\w.-]+)", about, re.MULTILINE)
+    found = {packages[name].name for name in map(_spelt, needs) if name in packages}
+    if any("[satcheck." in _stated(each, "entry_points.txt") for each in packages.values()):
+        from importlib.metadata import entry_points
 
-    found = set()
-    with suppress(PackageNotFoundError):  # a working tree
-        for name in {re.split(r"[^\w.-]", need)[0] for need in requires("satcheck") or ()}:
-            with suppress(PackageNotFoundError):
-                found.add(f"{name} {_version(distribution(name))}")
-    points = entry_points()
-    for group in get_args(Group):
-        for point in points.select(group=f"satcheck.{group}"):
-            found.add(f"{point.value} {point.dist and point.dist.version} {_state(point.module)}")
+        points = entry_points()
+        for group in get_args(Group):
+            for point in points.select(group=f"satcheck.{group}"):
+                version = point.dist and point.dist.version
+                found.add(f"{point.value} {version} {_state(point.module)}")
     return tuple(sorted(found))
 
 
-def _version(installed: Distribution) -> str:
-    """Return the version of a package. Its attribute `version` parses the whole description first,
-    and each process of a batch asks this of dozens of packages."""
-    about = installed.read_text("METADATA") or ""
-    found = re.search(r"^Version:[ \t]*(\S+)", about, re.MULTILINE)
-    return found[1] if found else installed.version
+def _packages() -> dict[str, Path]:
+    """Return the folders, called by name and version, that state what is installed. Each process of
+    a batch asks for them, and importlib.metadata takes a third of its start."""
+    found: dict[str, Path] = {}
+    for folder in sys.path:
+        with suppress(OSError):
+            for name in os.listdir(folder or os.curdir):  # noqa: PTH208  Path takes longer
+                if name.endswith((".dist-info", ".egg-info")):
+                    found.setdefault(_spelt(name.partition("-")[0]), Path(folder, name))
+    return found
+
+
+def _spelt(name: str) -> str:
+    return re.sub(r"[-_.]+", "_", name).lower()
+
+
+def _stated(folder: Path, file: str) -> str:
+    """Return what a file of such a folder says; "": nothing."""
+    with suppress(OSError):
+        return (folder / file).read_text(encoding="utf-8", errors="replace")
+    return ""
 
 
 def _state(module: str) -> str:

@@ -9,8 +9,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from satcheck.core.conventions import Vector
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Poses = NDArray[np.float64]
 
 Quaternion = tuple[float, float, float, float]  # x, y, z, w
 Rotation = tuple[float, ...]
@@ -79,6 +86,14 @@ def compose(outer: Transform, inner: Transform) -> Transform:
         entries = [row[0] * x + row[1] * y + row[2] * z for x, y, z in columns]
         rows += [*entries[:3], entries[3] + row[3]]
     return (*rows, 0.0, 0.0, 0.0, 1.0)
+
+
+def within(outer: Poses, inner: Poses) -> Poses:
+    """Return many placements in the frames of others, to the bits of `compose`, shape (3, 4, n) or
+    (3, 4, 1)."""
+    poses: Poses = outer[:, 0:1] * inner[0] + outer[:, 1:2] * inner[1] + outer[:, 2:3] * inner[2]
+    poses[:, 3] += outer[:, 3]
+    return poses
 
 
 def placed(rotation: Sequence[float], origin: Sequence[float]) -> Transform:

@@ -7,12 +7,21 @@ static tools see neither that mapping nor, when only the installed copy is there
 from __future__ import annotations
 
 import shutil
+from importlib.util import find_spec
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LINKS = ROOT / "build" / "links"
 PACKAGE = ROOT / "api" / "satcheck"  # its own files, beside the rooms
+STUBS = "_native"  # of the compiled module; the build makes them, so they lie where it is installed
 ROOMS = ("plugins", "cli", "audit", "verify", "report", "scene", "decompose", "core")
+
+
+def installed_package() -> Path:
+    spec = find_spec("satcheck")
+    if spec is None or spec.origin is None:
+        raise RuntimeError("satcheck is not installed: make test installs it")
+    return Path(spec.origin).parent
 
 
 def make_links(folder: Path) -> None:
@@ -20,7 +29,8 @@ def make_links(folder: Path) -> None:
     package = folder / "satcheck"
     package.mkdir(parents=True, exist_ok=True)
     (package / "_version.py").write_text('__version__ = "0"\n', encoding="utf-8")
-    for source in (*PACKAGE.glob("*.py"), PACKAGE / "_native", *(ROOT / room for room in ROOMS)):
+    rooms = (ROOT / room for room in ROOMS)
+    for source in (*PACKAGE.glob("*.py"), installed_package() / STUBS, *rooms):
         link = package / source.name
         if link.is_symlink() or link.is_file():
             link.unlink()

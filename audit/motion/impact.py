@@ -8,8 +8,7 @@ body, however fast or thin.
 
 Where we deviate: a contact is no collision. While bodies touch, the scan goes on as long as it can
 prove that they overlap by no more than the touch band. For two convex bodies the signed distance
-proves it; else the hull that a sliding body sweeps (swept_hull.py), or a translation of A, no
-longer than the band, after which they stay apart. If the proof fails, the scan looks for an overlap
+proves it; else contact.py does. If the proof fails, the scan looks for an overlap
 later in the motion. If it finds none, the answer is open.
 """
 
@@ -17,23 +16,23 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.motion.contact_offsets import ContactOffsets
+from satcheck.audit.motion.contact import ContactOffsets, safe_slide
 from satcheck.audit.motion.moving_pair import (
     SLID,
     MovingPair,
     Unanswerable,
     overlaps,
 )
-from satcheck.audit.motion.swept_hull import safe_slide
 from satcheck.audit.stages.depth import FREE
 from satcheck.audit.stages.thickness import why_not_thick
 from satcheck.report.report import OVERLAPS
+from satcheck.report.sweep import Sweep, SweptRelation
+from satcheck.report.values import Interval
 
 if TYPE_CHECKING:
     from satcheck.audit.pair import Pair
@@ -51,49 +50,49 @@ COARSE = 0.5
 WORK = 10_000_000
 
 
-class Impact(Struct, frozen=True):
-    """lower, upper: bounds of the first t at which the bodies overlap by more than the touch band.
-    Before lower they do not; at upper they do. upper is None if no overlap was found.
-
-    reached: up to this t no such overlap is proven; 1.0: for the whole motion. contact: the first t
-    at which the bodies may touch; None: never. reason: why the scan ended early without an overlap.
-    gap: the bodies are farther apart than this all the way; 0.0 also if they are not.
-    """
-
-    lower: float
-    upper: float | None
-    reached: float
-    contact: float | None = None
-    reason: str | None = None
-    gap: float = 0.0
-
-    @property
-    def free(self) -> bool:
-        return self.upper is None and self.reason is None
-
-
-def first_impact(pair: MovingPair, gaps: Sequence[float] = ()) -> Impact:
-    """gaps: the scan proves the largest of these lengths that the bodies stay apart by, if it can
-    do so on its way."""
-    if not pair.stretches:
-        return Impact(1.0, None, 1.0, gap=pair.free_gap)
+def first_impact(pair: MovingPair, gap: float = 0.0) -> Sweep:
+    """Scan the stretches in which the bodies may meet. The relation of bodies that stay free is the
+    closest that is not excluded yet. gap: the scan proves on its way that the bodies stay farther
+    apart than this, if it can."""
     try:
         start = pair.found_at(pair.stretches[0][0])
         if overlaps(start):
-            return Impact(0.0, 0.0, 0.0, 0.0)
+            return open_sweep(pair, 0.0, (0.0, 0.0), 0.0)
         if start.relation == "indeterminate" or start.relation in OVERLAPS:
             reason = f"undecided where the motion starts: {start.reason}"
             upper = _first_overlap(pair, 0.0) if pair.pair.may("exact") else None
-            return Impact(0.0, upper, 0.0, 0.0, reason if upper is None else None)
+            if upper is None:
+                return open_sweep(pair, 0.0, contact=0.0, reason=reason)
+            return open_sweep(pair, 0.0, (0.0, upper), 0.0)
     except Unanswerable as why:
-        return Impact(0.0, None, 0.0, None, str(why))
+        return open_sweep(pair, 0.0, reason=str(why))
     # A possible touch counts as a contact; the scan itself proves how deep it is.
-    scan = _Scan(pair, gaps, outside=start.exact_relation in FREE)
+    scan = _Scan(pair, gap, outside=start.exact_relation in FREE)
     try:
         scan.run()
     except Unanswerable as why:
         scan.reason = f"{why}, at t = {scan.t:.6g}"
-    return scan.impact()
+    return scan.swept()
+
+
+def open_sweep(
+    pair: MovingPair,
+    reached: float,
+    impact: Interval | None = None,
+    contact: float | None = None,
+    reason: str | None = None,
+) -> Sweep:
+    """Return a sweep without its figures."""
+    relation: SweptRelation = "indeterminate" if reason else "touching"
+    return Sweep(
+        relation="penetrating" if impact else relation,
+        time_of_impact=impact,
+        reached=reached,
+        contact=contact,
+        reason=reason,
+        tolerance=pair.tolerance,
+        steps=pair.steps,
+    )
 
 
 def possible_overlap(pair: MovingPair, start: float) -> float | None:
@@ -111,16 +110,16 @@ class _Scan:
     """t: until t the bodies are free or within the touch band. met: where the contact at t began,
     the lower end of the interval that is reported. outside: the bodies are known to have no common
     interior at t. Separate surfaces do not prove that: a body smaller than the touch band may have
-    entered the other body. gaps: ascending; until t the bodies are farther apart than the last."""
+    entered the other body. gap: until t the bodies are farther apart than this."""
 
-    def __init__(self, pair: MovingPair, gaps: Sequence[float], outside: bool) -> None:
+    def __init__(self, pair: MovingPair, gap: float, outside: bool) -> None:
         self.t = 0.0
         self._outside = outside
         self.met = 0.0
         self.contact: float | None = None
         self.reason: str | None = None
         self._pair = pair
-        self._gaps = sorted({0.0, *gaps})
+        self._gap = gap
         self._offsets = ContactOffsets(pair)
 
     def run(self) -> None:
@@ -157,39 +156,40 @@ class _Scan:
         return time
 
     def _farther_apart(self, end: float) -> float:
-        """The time for which the surfaces are farther apart than the last of the gaps."""
-        while len(self._gaps) > 1:
-            time = self._pair.apart(self.t, end, gap=self._gaps[-1]).time
+        """The time for which the surfaces are farther apart than the gap, or than nothing."""
+        if self._gap > 0.0:
+            time = self._pair.apart(self.t, end, gap=self._gap)
             if time >= min(SHORTEST_WIDE_STEP, end - self.t):
                 return time
-            self._gaps.pop()
-        return self._pair.apart(self.t, end).time
+            self._gap = 0.0
+        return self._pair.apart(self.t, end)
 
     def _in_contact(self, end: float) -> float:
         on = self._pair.shallow(self.t, end)
         if self._pair.is_step(on, self.t, end) or not self._pair.pair.may("exact"):
             return on
+        # Most contacts are so short that they count as the start of an overlap.
+        if overlaps(self._pair.found_at(self._pair.soon(self.t, end, SLID))):
+            return 0.0
         slide = safe_slide(self._pair, self.t, end)
         if self._pair.is_step(slide, self.t, end):
             return slide
         return self._offsets.safe_time(self.t, end)
 
-    def impact(self) -> Impact:
+    def swept(self) -> Sweep:
+        pair, contact = self._pair, self.contact
         try:
-            upper = (
-                self._inside_at_rest()
-                if self.reason is None
-                else _first_overlap(self._pair, self.t)
-            )
+            upper = self._inside_at_rest() if self.reason is None else _first_overlap(pair, self.t)
         except Unanswerable as why:
-            return Impact(self.t, None, self.t, self.contact, str(why))
+            return open_sweep(pair, self.t, None, contact, str(why))
         if upper is None and self.reason is None:
-            return Impact(1.0, None, 1.0, self.contact, gap=self._gaps[-1])
+            free = open_sweep(pair, 1.0, None, contact)
+            return replace(free, distance_at_least=self._gap or None)
         if upper is None:
-            return Impact(self.t, None, self.t, self.contact, self.reason)
+            return open_sweep(pair, self.t, None, contact, self.reason)
         # If the budget ended before a contact, they stay apart until t.
-        contact = self.t if self.contact is None else self.contact
-        return Impact(min(self.met, upper), upper, min(self.t, upper), contact)
+        contact = self.t if contact is None else contact
+        return open_sweep(pair, min(self.t, upper), (min(self.met, upper), upper), contact)
 
     def _inside_at_rest(self) -> float | None:
         """The start or the end of the motion, if the bodies touch on the way and this pose fails at

@@ -1,12 +1,13 @@
-"""Two bodies on their tracks, and the bounds that can be proven from one moment on."""
+"""Two bodies that move, and the bounds that can be proven from one moment on."""
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_right
 from contextlib import contextmanager
+from functools import partial
 from itertools import chain
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -15,28 +16,23 @@ from satcheck import core
 from satcheck.audit.body import PlacedBody, diagonal
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
-from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS
+from satcheck.audit.motion.travel import ORIGIN, Travel
 from satcheck.audit.pair import TOUCH_FRACTION, Pair
 from satcheck.audit.planner import ALWAYS
 from satcheck.core.curved.placed import rows_of
-from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import Transform, placed
-from satcheck.report.report import OVERLAPS
+from satcheck.report.report import OVERLAPS, Effect
 from satcheck.report.request import Request
-from satcheck.report.sweep import Joints, Place
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator
 
-    from satcheck.audit.motion.joint_travel import JointWay
-    from satcheck.audit.motion.track import Track
     from satcheck.core.conventions import Vector
     from satcheck.report.report import Finding
 
     Ask = Callable[..., core.MotionAnswer]
-    Side = tuple[core.Surface | core.Shape, Transform]
-    Way: TypeAlias = Track | JointWay
+    Shaped = tuple[core.Surface | core.Shape, Transform]
 
 
 Stretch = tuple[float, float]
@@ -70,8 +66,6 @@ VISITS = 10_000_000
 STEPS_OF_QUERY, STEPS_OF_VISIT, STEPS_OF_POSE = 50_000, 500, 300_000
 # For each triangle of both bodies in that pose.
 STEPS_OF_PLACED_TRIANGLE = 100
-# The least touch band of a sweep, in units of the rounding of a pose.
-PADS_IN_BAND = 8
 
 
 class Unanswerable(Exception):
@@ -85,47 +79,32 @@ class BudgetSpent(Unanswerable):
         super().__init__("the budget of the sweep was spent")
 
 
-class Obstacle(Struct, frozen=True):
-    """time: how long the way is free, in t. triangles: of A and B, the obstacle then; None: there
-    is none, or only the hulls were tested."""
-
-    time: float
-    triangles: tuple[int, int] | None = None
-
-
-class Posed(Struct, frozen=True):
-    """The pose of both bodies at a time, as a report states it; see `Sweep`."""
-
-    at: tuple[Place, ...]
-    joints: Joints | None = None
-    poses: tuple[int, int] | None = None
-
-
 class MovingPair:
     """World frame. tolerance: half width of the touch band, at least the rounding of poses. pad:
     the rounding of a gap. framed: the frame of both bodies turns in the world. hulls_apart: whether
-    the hulls alone have answered all queries so far. Raises Unanswerable if the rounding would make
+    the hulls alone have answered all queries so far. obstacle: the triangles of A and B that ended
+    the last way between surfaces; -1: none. Raises Unanswerable if the rounding would make
     the band wide for bodies of this size.
     """
 
-    def __init__(self, pair: Pair, way_a: Way, way_b: Way, found: OpenStretches) -> None:
-        self.pair = pair
-        self._sides = (pair.a, way_a), (pair.b, way_b)
-        self.framed = way_a.framed or way_b.framed
-        self.pad = sum(rounding_of(body, way) for body, way in self._sides)
-        rounding = PADS_IN_BAND * self.pad
+    def __init__(self, pair: Pair, travel: Travel, found: OpenStretches) -> None:
+        self.pair, self.posed, self._travel = pair, partial(travel.posed, pair), travel
+        self._sides = travel.sides(pair)
+        self.framed = any(len(joints) < len(travel.above[k]) for k, joints in self._sides)
+        self.pad = sum(travel.pad(k) for k, _ in self._sides)
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
-        if not rounding <= max(pair.tolerance, TOUCH_FRACTION * size):
+        if not travel.band(pair) <= max(pair.tolerance, TOUCH_FRACTION * size):
             raise Unanswerable(
                 f"the motion is so long that rounding moves the bodies by {self.pad:.3g}"
             )
-        self.tolerance = max(pair.tolerance, rounding)
-        self.times = sorted({*way_a.times, *way_b.times})
+        self.tolerance = travel.band(pair)
+        self.times: list[float] = travel.times.tolist()
         self.stretches, self.free_gap, self.steps = found.stretches, found.gap, found.steps
         self._most_steps = found.steps + STEPS + STEPS_A_PIECE * (len(self.times) - 2)
         self.convex = all(body.curved is not None or body.convex for body in (pair.a, pair.b))
         self._known: dict[int, tuple[float, float]] = {}  # of pieces
         self.hulls_apart = True
+        self.obstacle = -1, -1
         self.visits = 0
 
     def fastest(self, t: float) -> float:
@@ -135,12 +114,11 @@ class MovingPair:
 
     def _rates(self, t: float) -> tuple[float, float]:
         """That bound, and the largest effect of rounding on the rate at which a gap closes."""
-        piece = bisect_right(self.times, t)
+        piece = min(bisect_right(self.times, t), len(self.times) - 1)
         if piece not in self._known:
-            self._known[piece] = (
-                sum(way.fastest(t, body.bounds) for body, way in self._sides),
-                sum(way.slack(t, body.bounds) for body, way in self._sides),
-            )
+            ends = self.times[piece - 1], self.times[piece]
+            (v, p), (w, q) = (self._travel.in_piece(side, *ends) for side in self._sides)
+            self._known[piece] = v + w, p + q
         return self._known[piece]
 
     def shortest_step(self, t: float) -> float:
@@ -158,25 +136,36 @@ class MovingPair:
         times = [start, *(time for time in self.times if start < time < end)]
         return max(map(self.fastest, times)) * (end - start)
 
-    def velocities(self, t: float) -> list[Vector | None]:
-        """Of all points of A and of B, in the piece of t; None: the body turns."""
-        return [way.velocity(t) for _, way in self._sides]
+    def soon(self, t: float, end: float, bands: float) -> float:
+        """Return when the bodies may have moved by so many touch bands since t; at most the end."""
+        speed = self.fastest(t)
+        return min(t + bands * self.tolerance / speed, end) if speed > 0.0 else end
 
-    def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> Obstacle:
+    def velocity(self, t: float) -> Vector | None:
+        """Return that of A relative to B, in the piece of t; None: a body turns, or is curved."""
+        at = self._travel.at_one(t)
+        of_a, of_b = ([at.joint(j) for j in joints] for _, joints in self._sides)
+        if self.pair.curved or any(own.rate[0] for own in (*of_a, *of_b)):
+            return None
+        slides = [own.slide[0] for own in of_a] + [-own.slide[0] for own in of_b]
+        x, y, z = map(float, sum(slides, start=ORIGIN))
+        return x, y, z
+
+    def apart(self, t: float, end: float, offset: Vector = ORIGIN, gap: float = 0.0) -> float:
         """The time after t, up to `end`, for which the surfaces are farther apart than `gap` if A
         is moved by `offset`. end: in the same pieces as t."""
-        hulls = self._hulls(core.safe_time, t, offset, level=gap, limit=end - t)
+        hulls = self._asked(core.safe_time, t, offset, level=gap, limit=end - t)
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
-            return Obstacle(hulls.value)
+            return hulls.value
         self.hulls_apart = False
-        result = self._surfaces(core.safe_time, t, offset, level=gap, limit=end - t)
-        triangles = result.triangle_a, result.triangle_b
-        return Obstacle(max(hulls.value, result.value), None if min(triangles) < 0 else triangles)
+        result = self._asked(core.safe_time, t, offset, surfaces=True, level=gap, limit=end - t)
+        self.obstacle = result.triangle_a, result.triangle_b
+        return max(hulls.value, result.value)
 
     def shallow(self, t: float, end: float) -> float:
         """The time for which the hulls, and so the bodies, overlap by no more than the
         tolerance."""
-        return self._hulls(core.safe_time, t, level=-self.tolerance, limit=end - t).value
+        return self._asked(core.safe_time, t, level=-self.tolerance, limit=end - t).value
 
     def least_gap(self, start: float, end: float, floor: float = 0.0) -> tuple[float, float]:
         """(lower, upper) of the signed distance of two convex bodies, or of the distance of other
@@ -185,9 +174,9 @@ class MovingPair:
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
         if self.convex:
-            result = self._hulls(core.least_gap, middle, window=window)
+            result = self._asked(core.least_gap, middle, window=window)
             return result.value, result.upper + self.pad
-        result = self._surfaces(core.least_gap, middle, window=window, floor=floor)
+        result = self._asked(core.least_gap, middle, surfaces=True, window=window, floor=floor)
         return max(result.value, 0.0), result.upper + self.pad
 
     def least_hull_gap(self, start: float, end: float) -> float:
@@ -195,13 +184,13 @@ class MovingPair:
         their depth."""
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
-        return self._hulls(core.least_gap, middle, window=window).value
+        return self._asked(core.least_gap, middle, window=window).value
 
     def placed(self, t: float) -> Pair:
         """The pair as placed at t, with the touch band of the sweep, and only its relation
         requested."""
         try:
-            a, b = (_placed(body, way, t) for body, way in self._sides)
+            a, b = (self._travel.moved(k, t) for k, _ in self._sides)
         except (ValueError, OverflowError) as error:
             raise Unanswerable(f"a body cannot be placed at t = {t:.6g}: {error}") from None
         return replace(
@@ -220,13 +209,12 @@ class MovingPair:
         """The finding at t, exact for the poses rounded to float64. clearance: it has to keep.
         tolerance: instead of the touch band of the sweep."""
         placed = self.placed(t)
-        if tolerance is not None:
-            placed = replace(placed, request=replace(placed.request, tolerance=tolerance))
+        by: dict[Effect, str] = {"overlap": ALWAYS}
         if clearance:
-            by = {**placed.request.by, "distance": ALWAYS}
-            request = replace(placed.request, by=by, clearance=clearance)
-            placed = replace(placed, request=request)
-        return self.found(placed)
+            by["distance"] = ALWAYS
+        width = self.tolerance if tolerance is None else tolerance
+        request = Request(by, tolerance=width, clearance=clearance)
+        return self.found(replace(placed, request=request))
 
     def found(self, placed: Pair) -> Finding:
         """The finding of the pair as placed at some t."""
@@ -249,35 +237,36 @@ class MovingPair:
             raise BudgetSpent
         self.pair.sweep_steps += steps
 
-    def _hulls(
-        self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
-    ) -> core.MotionAnswer:
-        """Asks about the hulls of the bodies, or their curved shapes."""
-        return self._asked(ask, t, offset, [_shape_of(b) for b, _ in self._sides], **bounds)
-
-    def _surfaces(
-        self, ask: Ask, t: float, offset: Vector = ORIGIN, **bounds: float
-    ) -> core.MotionAnswer:
-        """Asks about the surfaces of the bodies, or their curved shapes."""
-        sides = [_shape_of(b) if b.curved else (b.surface(), IDENTITY) for b, _ in self._sides]
-        result = self._asked(ask, t, offset, sides, work=VISITS - self.visits, **bounds)
-        self.visits += result.visits
-        self.pair.sweep_steps += STEPS_OF_VISIT * result.visits
-        return result
-
     def _asked(
-        self, ask: Ask, t: float, offset: Vector, sides: Sequence[Side], **bounds: float
+        self,
+        ask: Ask,
+        t: float,
+        offset: Vector = ORIGIN,
+        *,
+        surfaces: bool = False,
+        **bounds: float,
     ) -> core.MotionAnswer:
+        """Ask about the hulls of the bodies, or about their surfaces. Curved shapes stand for
+        both."""
         self.steps += 1
         if self.steps > self._most_steps or self.visits >= VISITS:
             raise BudgetSpent
         self._spend(STEPS_OF_QUERY)
-        (a, frame_a), (b, frame_b) = sides
-        (_, way_a), (_, way_b) = self._sides
+        (a, frame_a), (b, frame_b) = (
+            (body.surface(), IDENTITY) if surfaces and not body.curved else _shape_of(body)
+            for body in (self.pair.a, self.pair.b)
+        )
+        side_a, side_b = self._sides
         span = bounds.get("limit", bounds.get("window", 0.0))
-        moving_a = way_a.moving_at(t, span, offset, frame_a)
-        moving_b = way_b.moving_at(t, span, ORIGIN, frame_b)
-        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._rates(t)[1], **bounds)
+        moving_a = self._travel.moving(side_a, t, span, offset, frame_a)
+        moving_b = self._travel.moving(side_b, t, span, ORIGIN, frame_b)
+        if surfaces:
+            bounds["work"] = VISITS - self.visits
+        answer = ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._rates(t)[1], **bounds)
+        if surfaces:
+            self.visits += answer.visits
+            self.pair.sweep_steps += STEPS_OF_VISIT * answer.visits
+        return answer
 
 
 def holed(pair: Pair) -> list[str]:
@@ -294,36 +283,9 @@ def overlaps(finding: Finding) -> bool:
     return finding.relation in OVERLAPS and finding.exact_relation is not None
 
 
-def _shape_of(body: PlacedBody) -> Side:
+def _shape_of(body: PlacedBody) -> Shaped:
     """The hull of a body, or its curved shape, with its placement."""
     if body.curved is None:
         return body.hull_shape(), IDENTITY
     turn = tuple(chain.from_iterable(rows_of(body.curved.turn)))
     return body.curved.shape, placed(turn, body.curved.centre)
-
-
-def rounding_of(body: PlacedBody, way: Way) -> float:
-    """Return how far rounding may move a point of a body on its way, world units."""
-    slack = 0.0 if body.curved is None else body.curved.slack
-    return way.pad(body.bounds) + _placing(body, way) + slack
-
-
-def _placing(body: PlacedBody, way: Way) -> float:
-    """How far the rounding of a placement matrix may move a point of the body, world units. It
-    depends on the coordinates in the file, which may be far larger than those in the world."""
-    transform = body.body.transform
-    if transform is None or not way.moves:
-        return 0.0
-    low, high = body.body.file.mesh.bounds
-    reach = math.hypot(*(transform[4 * row + 3] for row in range(3)))
-    for column, ends in enumerate(zip(low, high, strict=True)):
-        stretch = math.hypot(*(transform[4 * row + column] for row in range(3)))
-        reach += stretch * max(map(abs, ends))
-    return PLACING_ROUNDOFFS * UNIT_ROUNDOFF * reach
-
-
-def _placed(body: PlacedBody, way: Way, t: float) -> PlacedBody:
-    if not way.moves:
-        return body
-    moved = way.placement(t, body.body.transform)
-    return PlacedBody(replace(body.body, transform=moved), body.shared)

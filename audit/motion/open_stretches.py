@@ -2,7 +2,7 @@
 
 In the middle of an interval the core proves two bodies apart by more than they travel until its
 ends. Then they are apart in all of the interval. Else the interval is halved, until they travel
-little: a sweep goes through it. Schwarzer, Saha, Latombe (2005), see `joint_travel.py`. All pairs
+little: a sweep goes through it. Schwarzer, Saha, Latombe (2005), see `travel.py`. All pairs
 are asked at once, on joints as on tracks.
 """
 
@@ -11,23 +11,16 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from itertools import pairwise
 from math import inf
-from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck.audit.motion.moving_pair import OpenStretches, Stretch, holed
+from satcheck.audit.motion.travel import Moments, Numbers, Travel
 from satcheck.audit.pair import STEPS_OF_SCENE, STEPS_OF_TRIANGLE, Pair
-from satcheck.audit.posed_pairs import APART, DEEP, PosedPairs
+from satcheck.audit.posed_pairs import APART, PosedPairs
 
-if TYPE_CHECKING:
-    from satcheck.audit.motion.joint_travel import JointTravel, Moments
-    from satcheck.audit.motion.track_travel import TrackMoments, TrackTravel
-
-    Travel: TypeAlias = TrackTravel | JointTravel
-
-Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Poses that the core takes at a time, and placements and pairs in all of them.
@@ -66,38 +59,25 @@ class _Intervals(Struct, frozen=True):
 def open_stretches(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
     """Return of each pair when it is not proven farther apart than its tolerance and its clearance.
 
-    Below exact nothing is asked. Along tracks bodies move steadily, so that the steps of a sweep
-    are longer than most intervals: it goes through all of the motion, unless the bisection keeps a
-    body with holes, whose fills a sweep does not see, apart all the way.
+    Below exact nothing is asked, and a sweep goes through all of the motion.
     """
-    asked = [p for p in pairs if p.may("exact") and (holed(p) or not travel.steady)]
-    bisected = _bisected(travel, asked) if asked else ()
-    found = {
-        (p.a.id, p.b.id): own
-        for p, own in zip(asked, bisected, strict=True)
-        if not (travel.steady and own.stretches)
-    }
-    return [found.get((p.a.id, p.b.id)) or _whole(travel, p) for p in pairs]
-
-
-def _whole(travel: Travel, pair: Pair) -> OpenStretches:
-    """Return all pieces of the motion of a pair."""
-    way_a, way_b = travel.ways(pair.a.id, pair.b.id)
-    return OpenStretches(tuple(pairwise(sorted({*way_a.times, *way_b.times}))))
+    if not pairs or pairs[0].may("exact"):
+        return _bisected(travel, pairs) if pairs else []
+    return [OpenStretches(tuple(pairwise(travel.times.tolist())))] * len(pairs)
 
 
 def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
     times = travel.times
     bodies = {body.id: body for pair in pairs for body in (pair.a, pair.b)}
     ids, posed = list(bodies), PosedPairs(list(bodies.values()), pairs)
-    tolerances = [pair.tolerance for pair in pairs]
+    bands = [travel.band(pair) for pair in pairs]
     near = [
         (NEAREST if holed(pair) else NEAR) * min(pair.a.diagonal, pair.b.diagonal) for pair in pairs
     ]
     together = max(min(TOGETHER, ENTRIES // (len(ids) + len(pairs))), 1)
     most = INTERVALS + INTERVALS_A_PIECE * (len(times) - 1)
     found: list[list[Stretch]] = [[] for _ in pairs]
-    steps, first_hit = np.zeros(len(found), int), np.full(len(found), inf)
+    steps = np.zeros(len(found), int)
     left = STEPS_OF_SCENE + STEPS_A_PIECE * (len(times) - 1) * len(found)
     left += sum(STEPS_OF_TRIANGLE * body.shared.triangles for body in bodies.values())
     waiting = [_Intervals(times[:-1], times[1:], np.ones((len(times) - 1, len(found)), bool))]
@@ -110,20 +90,20 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
         middle = 0.5 * (part.start + part.end)
         at = travel.at(middle)
         half = np.nextafter(np.maximum(part.end - middle, middle - part.start), inf)
-        travelled = _travelled(at, pairs, half, part.active)
-        codes, spent = posed.sift_within(at.placements(ids), travelled + tolerances, max(left, 0))
+        travelled = _travelled(travel, at, pairs, half, part.active)
+        codes, spent = posed.sift(at.placements(ids, len(middle)), travelled + bands, max(left, 0))
         left -= spent
-        hits = np.where(codes == DEEP, part.start[:, None], inf)
-        first_hit = np.minimum(first_hit, hits.min(axis=0))
         unproven = part.active & (codes != APART)
-        worth = (travelled > near) & (steps < most) & (part.start[:, None] <= first_hit)
+        worth = (travelled > near) & (steps < most)
         worth &= left > 0
         for row, k in np.argwhere(unproven & ~worth).tolist():
             found[k].append((float(part.start[row]), float(part.end[row])))
         if (unproven & worth).any():
             waiting.append(part.halved(unproven & worth))
     ends = set(times.tolist())
-    gaps = (max(pair.tolerance, pair.request.clearance or 0.0) for pair in pairs)
+    gaps = (
+        max(band, pair.request.clearance or 0.0) for band, pair in zip(bands, pairs, strict=True)
+    )
     return [
         OpenStretches(_joined(stretches, ends), asked_of, gap)
         for stretches, asked_of, gap in zip(found, steps.tolist(), gaps, strict=True)
@@ -131,12 +111,12 @@ def _bisected(travel: Travel, pairs: Sequence[Pair]) -> list[OpenStretches]:
 
 
 def _travelled(
-    at: TrackMoments | Moments, pairs: Sequence[Pair], half: Numbers, active: Flags
+    travel: Travel, at: Moments, pairs: Sequence[Pair], half: Numbers, active: Flags
 ) -> Numbers:
     """Return how far each pair travels in the time `half` from `at`, NaN where it is not active."""
     travelled = np.full(active.shape, np.nan)
     for k in np.flatnonzero(active.any(axis=0)).tolist():
-        own = at.between(half, pairs[k].a.id, pairs[k].b.id)
+        own = travel.between(at, half, pairs[k])
         travelled[:, k] = np.where(active[:, k], own, np.nan)
     return travelled
 

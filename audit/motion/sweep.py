@@ -4,19 +4,18 @@ whole motion: when it first overlaps, and its worst pose."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
 from satcheck.audit.bodies import PlacedBodies
 from satcheck.audit.body import PlacedBody
 from satcheck.audit.close_pairs import ClosePairs
-from satcheck.audit.motion.impact import Impact, first_impact, impact_point, possible_overlap
-from satcheck.audit.motion.moving_pair import MovingPair, OpenStretches, Posed, Unanswerable, holed
+from satcheck.audit.motion.impact import first_impact, impact_point, open_sweep, possible_overlap
+from satcheck.audit.motion.moving_pair import MovingPair, OpenStretches, Unanswerable, holed
 from satcheck.audit.motion.open_stretches import open_stretches
-from satcheck.audit.motion.track_travel import TrackTravel
+from satcheck.audit.motion.travel import Travel
 from satcheck.audit.motion.worst import (
     Worst,
     deepest_pose,
@@ -25,17 +24,12 @@ from satcheck.audit.motion.worst import (
 )
 from satcheck.audit.pair import Moves, Pair
 from satcheck.audit.planner import Planner
-from satcheck.audit.posed_pairs import ball_around
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Issue
 from satcheck.report.sweep import StatedMotion, Sweep, SweptRelation, WorstPose
+from satcheck.report.values import Interval
 from satcheck.scene import Scene
 from satcheck.scene.half_spaces import holds
-
-if TYPE_CHECKING:
-    from satcheck.audit.motion.open_stretches import Travel
-
-Poses = Callable[[float], Posed]
 
 
 def sweep(pair: Pair, travel: Travel, found: OpenStretches) -> Sweep:
@@ -43,142 +37,102 @@ def sweep(pair: Pair, travel: Travel, found: OpenStretches) -> Sweep:
     try:
         if found.stretches:
             _require_reach(pair, travel)
-            ways = travel.ways(pair.a.id, pair.b.id)
-            moving = MovingPair(pair, *ways, found)
-            return swept_along(moving, partial(travel.posed, pair))
+            return _swept_along(MovingPair(pair, travel, found))
     except Unanswerable as why:
-        return swept(Impact(0.0, None, 0.0, reason=str(why)), pair.tolerance, found.steps)
-    free = Impact(1.0, None, 1.0, gap=found.gap)
-    return swept(free, pair.tolerance, found.steps, "separated", distance_at_least=found.gap)
+        return Sweep(
+            relation="indeterminate",
+            reached=0.0,
+            reason=str(why),
+            tolerance=pair.tolerance,
+            steps=found.steps,
+        )
+    return Sweep(
+        relation="separated",
+        reached=1.0,
+        distance_at_least=found.gap,
+        tolerance=pair.tolerance,
+        steps=found.steps,
+    )
 
 
 def _require_reach(pair: Pair, travel: Travel) -> None:
     for floor, other in ((pair.a, pair.b), (pair.b, pair.a)):
-        if floor.endless and not holds(floor.body, travel.bounds(other.id, other.bounds)):
+        if floor.endless and not holds(floor.body, travel.bounds(other.id)):
             raise Unanswerable(f"{other.id} moves beyond the reach of the half space")
 
 
-def swept_along(moving: MovingPair, posed: Poses) -> Sweep:
-    """The sweep of two bodies on their ways. posed: their poses for the report."""
+def _swept_along(moving: MovingPair) -> Sweep:
+    """Return the sweep of two bodies on their ways."""
     pair = moving.pair
     if not pair.may("hull"):
         reason = f"bodies are not swept at --accuracy {pair.settings.accuracy}"
-        impact = Impact(0.0, None, 0.0, reason=reason)
+        swept = open_sweep(moving, 0.0, reason=reason)
     else:
-        impact = first_impact(moving, _gaps(moving))
-    if impact.upper is not None:
-        return _hit(moving, impact, impact.upper, posed)
-    if impact.reason is None:
-        return _free(moving, impact, posed)
-    # An overlap of boxes, hulls or parts instead of the bodies is no proof.
-    hit = None if pair.may("exact") else possible_overlap(moving, impact.reached)
-    if hit is None:
-        return swept(impact, moving.tolerance, moving.steps)
-    impact = replace(impact, upper=hit, reason=None)
-    shown = {"at": posed(hit).at, "proven": False}
-    return swept(impact, moving.tolerance, moving.steps, "penetrating", **shown)
+        swept = first_impact(moving, _gap(moving))
+    if swept.time_of_impact is not None:
+        swept = _hit(moving, swept, swept.time_of_impact)
+    elif swept.reason is None:
+        swept = _free(moving, swept)
+    elif not pair.may("exact"):
+        # An overlap of boxes, hulls or parts instead of the bodies is no proof.
+        hit = possible_overlap(moving, swept.reached)
+        if hit is not None:
+            shown = open_sweep(moving, swept.reached, (swept.reached, hit), swept.contact)
+            swept = replace(shown, at=moving.posed(hit)["at"], proven=False)
+    return replace(swept, steps=moving.steps)
 
 
-def swept(
-    impact: Impact,
-    tolerance: float,
-    steps: int,
-    relation: SweptRelation = "indeterminate",
-    **figures: Any,
-) -> Sweep:
-    """The sweep that found the impact."""
-    return Sweep(
-        relation=relation,
-        time_of_impact=None if impact.upper is None else (impact.lower, impact.upper),
-        reached=impact.reached,
-        contact=impact.contact,
-        reason=impact.reason,
-        tolerance=tolerance,
-        steps=steps,
-        **figures,
-    )
-
-
-def _relation_apart(
-    impact: Impact, worst: Worst | None, tolerance: float, clearance: float | None
-) -> SweptRelation:
-    """The relation of bodies that stay apart, or within the touch band, during the whole motion.
-    worst: the nearest pose, as far as it is known."""
-    upper = math.inf if worst is None else worst.upper
-    if impact.contact is not None or upper <= tolerance:
-        return "touching"
-    return "near" if upper < (clearance or 0.0) else "separated"
-
-
-def _worst_pose(worst: Worst | None, poses: Poses) -> WorstPose | None:
+def _worst_pose(pair: MovingPair, worst: Worst | None) -> WorstPose | None:
     """Return the worst pose as a report states it."""
     if worst is None:
         return None
-    posed = poses(worst.time)
+    posed = pair.posed(worst.time)
+    posed.pop("poses", None)
     if worst.upper < 0.0:
-        depth = -worst.upper, -worst.lower
-        return WorstPose(worst.time, posed.at, posed.joints, depth=depth)
-    distance = max(worst.lower, 0.0), worst.upper
-    return WorstPose(worst.time, posed.at, posed.joints, distance=distance)
+        return WorstPose(worst.time, **posed, depth=(-worst.upper, -worst.lower))
+    return WorstPose(worst.time, **posed, distance=(max(worst.lower, 0.0), worst.upper))
 
 
-def _gaps(pair: MovingPair) -> tuple[float, ...]:
-    """The lengths that decide the relation of bodies that stay apart. If a body has holes, only
-    hulls that have no common point prove that no fill is entered."""
-    return () if holed(pair.pair) else (pair.tolerance, pair.pair.request.clearance or 0.0)
+def _gap(pair: MovingPair) -> float:
+    """Return the length that decides the relation of bodies that stay apart. If a body has holes,
+    only hulls that have no common point prove that no fill is entered."""
+    return 0.0 if holed(pair.pair) else max(pair.tolerance, pair.pair.request.clearance or 0.0)
 
 
-def _hit(pair: MovingPair, impact: Impact, upper: float, poses: Poses) -> Sweep:
+def _hit(pair: MovingPair, swept: Sweep, impact: Interval) -> Sweep:
     worst, request = None, pair.pair.request
     if request.wants("depth") or request.max_thickness is not None:
-        worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
-    posed = poses(upper)
-    return swept(
-        impact,
-        pair.tolerance,
-        pair.steps,
-        "penetrating",
-        at=posed.at,
-        joints=posed.joints,
-        poses=posed.poses,
-        point=impact_point(pair.placed(upper), pair.path_length(impact.lower, upper)),
-        worst=_worst_pose(worst, poses),
-    )
+        worst = least_distance(pair) if pair.convex else deepest_pose(pair, impact[1])
+    point = impact_point(pair.placed(impact[1]), pair.path_length(*impact))
+    return replace(swept, **pair.posed(impact[1]), point=point, worst=_worst_pose(pair, worst))
 
 
-def _free(pair: MovingPair, impact: Impact, poses: Poses) -> Sweep:
-    worst, clearance = _nearest(pair, impact), pair.pair.request.clearance
+def _free(pair: MovingPair, swept: Sweep) -> Sweep:
+    worst, clearance = _nearest(pair, swept), pair.pair.request.clearance
     if worst is not None and clearance and worst.lower < clearance <= worst.upper:
         worst = _as_placed(pair, worst, clearance)
-    relation = _relation_apart(impact, worst, pair.tolerance, clearance)
-    holes = holed(pair.pair)
+    upper = math.inf if worst is None else worst.upper
+    relation: SweptRelation = "near" if upper < (clearance or 0.0) else "separated"
+    if swept.contact is not None or upper <= pair.tolerance:
+        relation = "touching"
+    holes, reason = holed(pair.pair), None
     if holes and not pair.hulls_apart:
-        unfilled = f"the fills of the holes of {' and '.join(holes)} were not swept"
-        impact = replace(impact, reason=unfilled)
+        reason = f"the fills of the holes of {' and '.join(holes)} were not swept"
     if worst is not None and holes and clearance:
         # The fill of a hole may be nearer than the surfaces, but not nearer than the hulls.
         hulls = least_hull_distance(pair, worst.upper, clearance)
         worst = replace(worst, lower=min(worst.lower, hulls))
-    return swept(
-        impact,
-        pair.tolerance,
-        pair.steps,
-        relation,
-        worst=_worst_pose(worst, poses),
-        distance_at_least=impact.gap if worst is None and impact.gap > 0.0 else None,
-    )
+    return replace(swept, relation=relation, reason=reason, worst=_worst_pose(pair, worst))
 
 
-def _nearest(pair: MovingPair, impact: Impact) -> Worst | None:
-    """The nearest pose, as narrowly as the relation and the clearance need it; None: they do not
-    need it, or it is unknown."""
-    contact, clearance = impact.contact, pair.pair.request.clearance
-    if not pair.convex and not pair.pair.may("exact"):
+def _nearest(pair: MovingPair, swept: Sweep) -> Worst | None:
+    """Return the nearest pose, as narrowly as the relation and the clearance need it; None: they do
+    not need it, or it is unknown."""
+    contact, clearance = swept.contact, pair.pair.request.clearance
+    if swept.distance_at_least or not (pair.convex or pair.pair.may("exact")):
         return None
     if contact is None:
         lengths = (pair.tolerance, clearance or 0.0)
-        if impact.gap >= max(lengths):
-            return None
         return least_distance(pair, lengths, narrow=bool(clearance))
     try:
         gap = pair.least_gap(contact, contact)[1] if clearance else None
@@ -208,17 +162,16 @@ class Movers:
         placed = list(bodies.placed.values())
         self._bodies, self._planner, self._motions = bodies, planner, scene.motions
         self._clear = {id_ for motion in scene.motions if motion.clear for id_ in motion.bodies}
-        self._travel: Travel = _travel_of(scene, placed, planner)
+        self._travel = _travel_of(scene, placed, planner)
 
     def close(self) -> ClosePairs:
-        """The pairs that may be as close as they ask, as placed or at some t."""
+        """Return the pairs that may be as close as they ask, as placed or at some t."""
         travel, bodies, planner = self._travel, self._bodies, self._planner
-        if not isinstance(travel, TrackTravel):
-            return ClosePairs(bodies, planner, travel.bounds)
 
         def may_meet(i: int, j: int) -> bool:
             a, b = bodies.placed[i], bodies.placed[j]
-            return travel.may_meet(a, b, planner.gap_limit(i, j, a.resolution + b.resolution))
+            limit = planner.gap_limit(i, j, a.resolution + b.resolution)
+            return travel.may_meet(a.id, b.id, limit)
 
         return ClosePairs(bodies, planner, travel.bounds, may_meet)
 
@@ -247,12 +200,14 @@ class Movers:
 
 def _travel_of(scene: Scene, placed: Sequence[PlacedBody], planner: Planner) -> Travel:
     if scene.joint_path is None:
+        from satcheck.audit.motion.track import TrackTravel
+
         return TrackTravel(scene.motions, placed)
     from satcheck.audit.motion.joint_travel import JointTravel
 
     _require_answers(scene, planner)
     usable = replace(scene, bodies=tuple(body.body for body in placed))
-    return JointTravel(usable, scene.joint_path, [ball_around(body) for body in placed])
+    return JointTravel(usable, scene.joint_path, placed)
 
 
 def _require_answers(scene: Scene, planner: Planner) -> None:

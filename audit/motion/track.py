@@ -1,4 +1,4 @@
-"""A motion as pieces of steady motion, as the bounds of the core need it.
+"""Motions of a scene as tracks: pieces of steady motion, as the bounds of the core need it.
 
 On every piece M(t) x = centre(t) + turn(t) (x - pivot): the centre moves with one velocity, and the
 body turns about one axis through it with one angular velocity. Every translation, every rotation,
@@ -9,15 +9,17 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
-from typing import ClassVar
+from typing import Any
 
-from msgspec import Struct
+import numpy as np
+from msgspec import Struct, convert, to_builtins
 
-from satcheck import core
-from satcheck.audit.body import Box, corners
-from satcheck.audit.vectors import added, crossed, dot
+from satcheck.audit.body import Box, PlacedBody, corners
+from satcheck.audit.motion.travel import ORIGIN, Moments, Numbers, Rates, Travel, kept
+from satcheck.audit.pair import Pair
+from satcheck.audit.vectors import crossed, dot
 from satcheck.core.conventions import Vector
 from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.core.transform import (
@@ -29,38 +31,16 @@ from satcheck.core.transform import (
     cos_sin,
     placed,
     quaternion_matrix,
+    within,
 )
+from satcheck.report.sweep import Place, StatedMotion
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.motion import Path, Translation
+from satcheck.scene.motion import Motion, Path, PosePath, Translation
 from satcheck.scene.motion import Rotation as RotatingPath
 
-ORIGIN: Vector = (0.0, 0.0, 0.0)
 STILL: Rotation = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
-
-# Rounding errors, in roundoffs of the reach of a body. The reach is the sum of three distances: of
-# its farthest point from the pivot, of the pivot from the origin, and of the centre from the
-# origin. A pose: the sine and cosine have an error of 4, the axis 4, each of the nine products of a
-# rotation 8 (twice on a leg of a path), the centre 8, the product with a point 16: below 128 in
-# sum. The relative error 4 of the angle is also an error of the rotation. The arithmetic of a gap
-# along an axis, on three coordinates, adds less than 128.
-POSE_ROUNDOFFS = 256
-# A pose and a placement, multiplied into one matrix. Each entry is a rounded sum of up to four
-# rounded products: its error is below 8 roundoffs of the lengths in it. Applied to the three
-# coordinates of a point of the file, the error is below 16 roundoffs of the terms that the
-# placement adds up.
-PLACING_ROUNDOFFS = 16
-# The rate at which a gap closes: the axis has an error of 4, the angular velocity 8, products and
-# sums of three coordinates 16 each. The change of the rate by rotation adds as much again.
-# A body at rest may be seen as turning, relative to the other body (core/native/motion/moving.hpp,
-# Views). Its rate then has an error of 8 roundoffs of spin times reach, and its own speed is 0 and
-# adds nothing to the slack. The pads cover this error. With bend = spin * steady, a gap is at least
-# gap - rate s - bend s^2 / 2, and at least gap - steady s. The first bound is greater only if
-# bend s / 2 < steady - rate <= 2 steady, within 4 radians. The error is then below 32 roundoffs of
-# the reach, and a body without a pose has 128 to spare. The second bound has no difference of large
-# terms: its error is some roundoffs of the decrease of the gap.
-RATE_ROUNDOFFS = 128
-# The error of the rotation between two orientations, in roundoffs; also for small rotations.
-LEG_ROUNDOFFS = 16
+# How a report calls the kinds of paths.
+KINDS = {Translation: "translation", RotatingPath: "rotation", PosePath: "path"}
 
 
 class Piece(Struct, frozen=True):
@@ -92,45 +72,18 @@ class Piece(Struct, frozen=True):
             pose = compose(pose, placed(self.turn, ORIGIN))
         return pose if self.pivot == ORIGIN else compose(pose, placed(STILL, (-x, -y, -z)))
 
-    @property
-    def spin(self) -> Vector:
-        rate = math.radians(self.degrees) / (self.end - self.start)
-        return self.axis[0] * rate, self.axis[1] * rate, self.axis[2] * rate
-
-    def radius(self, bounds: Box) -> float:
-        """The distance of the farthest corner from the pivot, rounded."""
-        return max(math.dist(corner, self.pivot) for corner in corners(bounds))
-
     def reach(self, bounds: Box) -> float:
         """A bound of the coordinates of the body, its pivot and its centre, and of their sum, world
         units. bounds: of the body as placed."""
+        radius = max(math.dist(corner, self.pivot) for corner in corners(bounds))
         farthest = max(math.hypot(*end) for end in (self.centre, self.centre_at(self.end)))
-        return (self.radius(bounds) + math.hypot(*self.pivot) + farthest) * (1 + 8 * UNIT_ROUNDOFF)
-
-    def speed(self, bounds: Box) -> float:
-        """An upper bound of the speed of any point of the body, world units per unit of t."""
-        return math.hypot(*self.velocity) + math.hypot(*self.spin) * self.radius(bounds)
-
-    def fastest(self, bounds: Box) -> float:
-        """One that also bounds what rounds with the coordinates."""
-        return math.hypot(*self.velocity) + math.hypot(*self.spin) * self.reach(bounds)
-
-    def slack(self, bounds: Box) -> float:
-        """The largest effect of rounding on the rate at which a gap closes, world units per unit of
-        t."""
-        leg = LEG_ROUNDOFFS * self.reach(bounds) / (self.end - self.start)
-        return (RATE_ROUNDOFFS * self.fastest(bounds) + leg) * UNIT_ROUNDOFF
+        return (radius + math.hypot(*self.pivot) + farthest) * (1 + 8 * UNIT_ROUNDOFF)
 
 
 class Track(Struct, frozen=True):
     """The pieces of a motion, without gaps from t = 0 to t = 1."""
 
     pieces: tuple[Piece, ...]
-    framed: ClassVar[bool] = False  # the world is the frame of its rates
-
-    @property
-    def moves(self) -> bool:
-        return self != STANDS
 
     @property
     def times(self) -> list[float]:
@@ -145,43 +98,95 @@ class Track(Struct, frozen=True):
         """M(t)."""
         return self.piece_at(t).pose_at(t)
 
-    def placement(self, t: float, transform: Transform | None) -> Transform:
-        """The placement at t of a body with this one before the motion."""
-        return compose(self.pose_at(t), transform or IDENTITY)
+    def turned(self, summed: Callable[[Iterable[float]], float]) -> float:
+        """Return the sum, or the largest, of the turns of all pieces, radians."""
+        return math.radians(summed(abs(piece.degrees) for piece in self.pieces))
 
-    def fastest(self, t: float, bounds: Box) -> float:
-        """An upper bound of the speed of any point of the body in the piece of t."""
-        return self.piece_at(t).fastest(bounds)
 
-    def slack(self, t: float, bounds: Box) -> float:
-        """The largest effect of rounding on the rate at which a gap closes."""
-        return self.piece_at(t).slack(bounds)
+class TrackTravel(Travel):
+    """Bodies on the motions of a scene: each motion is a joint that carries its bodies alone."""
 
-    def velocity(self, t: float) -> Vector | None:
-        """Of all points, in the piece of t; None: the body turns."""
-        piece = self.piece_at(t)
-        return None if piece.degrees else piece.velocity
+    def __init__(self, motions: Sequence[Motion], bodies: Sequence[PlacedBody]) -> None:
+        self._motions = tuple(motions)
+        self.tracks = [track_of(motion.path) for motion in motions]
+        number = {body: j for j, motion in enumerate(motions) for body in motion.bodies}
+        above = [[number[body.id]] if body.id in number else [] for body in bodies]
+        times = np.array(sorted({time for track in self.tracks for time in track.times}))
+        super().__init__(bodies, above, times, max(track.turned(sum) for track in self.tracks))
 
-    def moving_at(
-        self, t: float, _: float = 0.0, offset: Vector = ORIGIN, frame: Transform = IDENTITY
-    ) -> core.Moving:
-        """The place and the motion of the body at t, moved by `offset`. frame: places it before the
-        motion."""
-        piece = self.piece_at(t)
-        pose = piece.pose_at(t)
-        if frame != IDENTITY:
-            pose = compose(pose, frame)
-        a, b, c, x, d, e, f, y, g, h, i, z = pose[:12]
-        turn, shift = ((a, b, c), (d, e, f), (g, h, i)), added((x, y, z), offset)
-        centre = added(piece.centre_at(t), offset)
-        return core.Moving(turn, shift, centre, piece.velocity, piece.spin)
+    def at(self, times: Numbers) -> TrackMoments:
+        return TrackMoments(self, times)
 
-    def pad(self, bounds: Box) -> float:
-        """The largest effect of rounding on a point of the body, and on a gap there, world units.
-        bounds: of the body as placed."""
-        turned = math.radians(max(abs(piece.degrees) for piece in self.pieces))
-        reach = max(piece.reach(bounds) for piece in self.pieces)
-        return (POSE_ROUNDOFFS + 4 * turned) * UNIT_ROUNDOFF * reach
+    def moved_reach(self, k: int) -> float:
+        pieces = self.tracks[self.above[k][0]].pieces
+        return max(piece.reach(self.bodies[k].bounds) for piece in pieces)
+
+    def roundoffs(self, k: int) -> float:
+        return 4 * self.tracks[self.above[k][0]].turned(max)
+
+    def posed(self, pair: Pair, t: float) -> dict[str, Any]:
+        both = ((body.id, self.above[self.place[body.id]]) for body in (pair.a, pair.b))
+        return {
+            "at": tuple(_place(id_, self._motions[j].path, t) for id_, own in both for j in own)
+        }
+
+    def stated(self) -> tuple[StatedMotion, ...]:
+        return tuple(
+            convert(
+                {
+                    "kind": KINDS[type(motion.path)],
+                    "bodies": motion.bodies,
+                    "clear": motion.clear,
+                    **to_builtins(motion.path),
+                },
+                StatedMotion,
+            )
+            for motion in self._motions
+        )
+
+
+class TrackMoments(Moments):
+    """Bodies on their tracks at some times."""
+
+    def __init__(self, travel: TrackTravel, times: Numbers) -> None:
+        super().__init__(travel)
+        self._above, self._bodies, self._tracks = travel.above, travel.bodies, travel.tracks
+        self._times: list[float] = times.tolist()
+
+    @kept
+    def joint(self, j: int) -> Rates:
+        pieces, times = self._tracks[j].pieces, np.array(self._times)
+        at = np.searchsorted([piece.start for piece in pieces], times, "right") - 1
+        axes, centres, slides = (
+            np.array(own)[at]
+            for own in zip(*((p.axis, p.centre, p.velocity) for p in pieces), strict=True)
+        )
+        starts = np.array([piece.start for piece in pieces])[at]
+        rates = np.array([math.radians(p.degrees) / (p.end - p.start) for p in pieces])[at]
+        with np.errstate(all="ignore"):  # beyond float64 nothing is proven
+            return Rates(axes, centres + slides * (times - starts)[:, None], rates, slides)
+
+    @kept
+    def placement(self, k: int) -> Numbers:
+        transform = self._bodies[k].body.transform or IDENTITY
+        placed = np.array(transform[:12]).reshape(3, 4, 1)
+        return within(self.pose(k), placed) if self._above[k] else placed
+
+    def pose(self, k: int) -> Numbers:
+        return self._moved(self._above[k][0])
+
+    @kept
+    def _moved(self, j: int) -> Numbers:
+        rows = [self._tracks[j].pose_at(t)[:12] for t in self._times]
+        return np.array(rows).T.reshape(3, 4, -1)
+
+
+def _place(body: str, path: Path, t: float) -> Place:
+    if isinstance(path, RotatingPath):
+        return Place(body, "degrees", path.degrees * t)
+    if isinstance(path, Translation):
+        return Place(body, "length", math.hypot(*path.vector) * t)
+    return Place(body, "t", t)
 
 
 def track_of(path: Path) -> Track:
@@ -236,6 +241,3 @@ def unit(v: Sequence[float]) -> tuple[float, ...]:
     small = [c / largest for c in v]
     length = math.hypot(*small)
     return tuple(c / length for c in small)
-
-
-STANDS = Track((Piece(0.0, 1.0),))

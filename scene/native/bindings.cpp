@@ -1,6 +1,8 @@
 // The Python face of the readers: `satcheck._native.readers`. Only it knows nanobind.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
@@ -110,16 +112,16 @@ Rows rows_of(const nb::bytes& data, const std::string& code, std::size_t columns
   return {{data.c_str(), data.size()}, code.empty() ? ' ' : code[0], columns, stride};
 }
 
-nb::object unpack_numbers(const nb::bytes& data, const std::string& code, std::size_t columns, std::size_t stride,
+std::optional<nb::bytes> unpack_numbers(const nb::bytes& data, const std::string& code, std::size_t columns, std::size_t stride,
                           double largest) {
   const auto numbers = as_numbers(rows_of(data, code, columns, stride), largest);
-  return numbers ? nb::object(to_bytes(*numbers)) : nb::none();
+  return numbers ? std::optional(to_bytes(*numbers)) : std::nullopt;
 }
 
-nb::tuple unpack_indices(const nb::bytes& data, const std::string& code, std::size_t stride) {
+std::pair<nb::bytes, std::int64_t> unpack_indices(const nb::bytes& data, const std::string& code, std::size_t stride) {
   const std::vector<std::uint32_t> indices = as_indices(rows_of(data, code, 1, stride));
   const auto largest = std::max_element(indices.begin(), indices.end());
-  return nb::make_tuple(to_bytes(indices), largest == indices.end() ? -1 : static_cast<std::int64_t>(*largest));
+  return std::pair(to_bytes(indices), largest == indices.end() ? -1 : static_cast<std::int64_t>(*largest));
 }
 
 template <class T>
@@ -180,7 +182,9 @@ void satcheck::bind_readers(nb::module_& m) {
                    "Little-endian float64 x, y, z of each vertex.")
       .def_prop_ro("triangles", [](nb::handle self) { return view(nb::cast<const MeshData&>(self).triangles, self); },
                    "Little-endian uint32 vertex numbers, three for each triangle.")
-      .def_prop_ro("number_format", &number_format_name, "\"written-digits\", \"float32\" or \"float64\".")
+      .def_prop_ro("number_format", &number_format_name,
+                   nb::sig("def number_format(self) -> typing.Literal['written-digits', 'float32', 'float64']"),
+                   "\"written-digits\", \"float32\" or \"float64\".")
       .def_ro("decimals", &MeshData::decimals,
               "Most digits after the point in a coordinate written without an exponent.")
       .def_ro("significant", &MeshData::significant,
@@ -195,10 +199,9 @@ void satcheck::bind_readers(nb::module_& m) {
           const nb::gil_scoped_release release;
           objects = split_objects(mesh);
         }
-        nb::list named;
+        std::vector<std::pair<nb::bytes, MeshData>> named;
         for (Object& object : objects) {
-          const nb::bytes name(object.name.data(), object.name.size());
-          named.append(nb::make_tuple(name, nb::cast(std::move(object.mesh))));
+          named.emplace_back(nb::bytes(object.name.data(), object.name.size()), std::move(object.mesh));
         }
         return named;
       }, "The objects of an OBJ file, each with its name and its mesh: vertices and triangles alone. None if only one has faces.");

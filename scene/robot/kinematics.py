@@ -25,6 +25,7 @@ from satcheck.core.transform import (
     about_fixed_axes,
     placed,
     quaternion_matrix,
+    within,
 )
 from satcheck.scene.bodies import IDENTITY, Scene
 from satcheck.scene.robot.model import Joint, Robot
@@ -37,13 +38,6 @@ _NO_SHIFT = (0.0, 0.0, 0.0)
 def poses_of(pose: Transform) -> Numbers:
     """Return a pose that is the same in all poses of a robot, shape (3, 4, 1)."""
     return np.array(pose[:12]).reshape(3, 4, 1)
-
-
-def within(outer: Numbers, inner: Numbers) -> Numbers:
-    """Return poses in the frames of other poses, as `compose` does."""
-    poses: Numbers = outer[:, 0:1] * inner[0] + outer[:, 1:2] * inner[1] + outer[:, 2:3] * inner[2]
-    poses[:, 3] += outer[:, 3]
-    return poses
 
 
 def link_poses(robot: Robot, values: Mapping[str, Numbers]) -> dict[str, Numbers]:

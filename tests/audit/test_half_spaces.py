@@ -350,9 +350,7 @@ def test_a_path_of_joints_hits_the_floor(tmp_path: Path) -> None:
     assert hit.time_of_impact[1] >= 0.9995
     free = with_joint_path(scene, [{"drop": (1000.0,)}, {"drop": (0.75,)}])
     by_pair = {(one.a, one.b): one for one in check(free, Settings(depth=False)).findings}
-    swept = by_pair["world", "lift"].motion
-    assert swept is not None
-    assert swept.relation == "separated"
+    assert by_pair["world", "lift"].relation == "separated"
 
 
 CART = (
@@ -365,7 +363,7 @@ CART = (
 @needs("mjcf")
 @pytest.mark.parametrize(
     ("height", "relation", "way"),
-    [(0.75, "separated", 1e6), (0.5001, "separated", 1e6), (0.5, "touching", 1000.0)],
+    [(0.501, "separated", 1e6), (0.5001, "separated", 1e6), (0.5, "touching", 1000.0)],
 )
 def test_a_way_along_a_floor_takes_few_steps(
     tmp_path: Path, height: float, relation: str, way: float

@@ -145,7 +145,7 @@ def sorted_and_decided(scene: Scene, count: int, seed: int) -> Counter[tuple[int
     poses = RandomPoses([robot.robot for robot in scene.robots], count, seed)
     seen: Counter[tuple[int, str]] = Counter()
     for batch in pose_batches(scene, poses, 10):
-        codes = pairs.sift(batch.matrices)
+        codes, _ = pairs.sift(batch.matrices)
         for row in range(batch.count):
             report = check(posed(scene, batch.pose(row)), QUICK)
             relations = {(f.a, f.b): f.relation for f in report.findings}
@@ -197,7 +197,7 @@ def test_a_thin_overlap_of_closed_bodies_is_not_deep(tmp_path: Path) -> None:
     bodies = place(scene, settings)
     pairs = posed_pairs(scene, bodies, settings)
     (batch,) = pose_batches(scene, [pose], 1)
-    assert pairs.sift(batch.matrices).tolist() == [[OPEN]]
+    assert pairs.sift(batch.matrices)[0].tolist() == [[OPEN]]
 
 
 def test_matrices_have_the_bits_of_single_poses() -> None:

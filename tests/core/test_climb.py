@@ -200,7 +200,7 @@ def test_a_pair_that_fails_takes_no_other_with_it() -> None:
 def test_arguments_are_checked() -> None:
     (pair, *_) = questions(crowd(2))
     with pytest.raises(ValueError, match="a rung is"):
-        core.Climbing([pair], "parts")  # type: ignore[arg-type]
+        core.Climbing([pair], "parts")
     with pytest.raises(ValueError, match="lacks a body"):
         core.Climbing([(pair[0], None, 0.0, 0.0, 0.0, 0.0, False)])  # type: ignore[list-item]
     a, b = pair[0].surface(), pair[1].surface()

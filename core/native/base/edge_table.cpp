@@ -40,7 +40,7 @@ EdgeTable::EdgeTable(std::size_t vertex_count, const std::vector<Triangle>& tria
 }
 
 std::vector<std::uint32_t> EdgeTable::twins() const {
-  std::vector<std::uint32_t> twins(3 * triangles_.size(), kNone);
+  std::vector<std::uint32_t> twins(3 * triangles_.size(), kNoIndex);
   for (std::size_t e = 0; e < size(); ++e) {
     const auto h = half_edges(e);
     if (h.size() == 2) twins[h[0]] = h[1], twins[h[1]] = h[0];

@@ -18,8 +18,7 @@ class EdgeTable {
   std::span<const std::uint32_t> half_edges(std::size_t edge) const {
     return {half_edge_.data() + offset_[edge], half_edge_.data() + offset_[edge + 1]};
   }
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  // Of each half-edge the other one at its edge, or kNone where an edge does not have exactly two.
+  // Of each half-edge the other one at its edge, or kNoIndex where an edge does not have exactly two.
   std::vector<std::uint32_t> twins() const;
   // Does the half-edge run from the lower to the higher vertex number?
   bool ascends(std::uint32_t h) const {

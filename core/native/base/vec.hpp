@@ -66,6 +66,8 @@ inline Vec3 any_perpendicular(Vec3 along) {
 
 using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from outside
 
+inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFF;  // of no vertex, edge or face
+
 // Rows of a 3x3 matrix.
 struct Mat3 {
   Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

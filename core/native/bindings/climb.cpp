@@ -33,6 +33,7 @@ namespace {
 
 using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 using PairTuple = std::tuple<PlacedGeometry*, PlacedGeometry*, double, double, double, double, bool>;
+using Question = nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>;
 
 Rung rung_from(const std::string& name) {
   constexpr const char* names[] = {"aabb", "obb", "hull", "triangles"};
@@ -114,14 +115,14 @@ std::optional<const char*> band_word(const std::optional<BandSide>& band) {
   return band ? std::optional(names[static_cast<int>(*band)]) : std::nullopt;
 }
 
-std::optional<Triple> corner(const std::optional<Vec3>& point) {
-  return point ? std::optional(Triple{point->x, point->y, point->z}) : std::nullopt;
+std::optional<Tuple3> corner(const std::optional<Vec3>& point) {
+  return point ? std::optional(to_tuple(*point)) : std::nullopt;
 }
 
 std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing_of(const Climb& climb) {
   if (!climb.triangles) return {};
   const std::uint32_t a = climb.triangles->triangle_a, b = climb.triangles->triangle_b;
-  if (a == kNoTriangle || b == kNoTriangle) return {};
+  if (a == kNoIndex || b == kNoIndex) return {};
   return std::pair(a, b);
 }
 
@@ -158,33 +159,40 @@ triangles     the relation of the meshes.
 nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, triangles; band_nanoseconds: of the touch
               band or the gap.)")
       .def_prop_ro("relation",
-                   [](const Climb& c) { return hole_in_the_way(c) || !c.decided ? "indeterminate" : name_of(c.verdict.relation); })
+                   [](const Climb& c) { return hole_in_the_way(c) || !c.decided ? "indeterminate" : name_of(c.verdict.relation); },
+                   nb::sig("def relation(self) -> typing.Literal['separated', 'touching', 'penetrating', 'contains', 'inside', "
+                           "'coincident', 'indeterminate']"))
       .def_ro("decided", &Climb::decided)
       .def_ro("steps", &Climb::steps)
       .def_ro("too_few_steps", &Climb::too_few_steps)
       .def_prop_ro("settled", [](const Climb& c) { return c.verdict.settled; })
       .def_prop_ro("proven", [](const Climb& c) { return c.verdict.proven; })
       .def_prop_ro("gap_lower", [](const Climb& c) { return c.verdict.gap; })
-      .def_prop_ro("signed_distance", &signed_distance, nb::rv_policy::reference_internal)
+      .def_prop_ro("signed_distance", &signed_distance, nb::rv_policy::reference_internal,
+                   nb::sig("def signed_distance(self) -> PairResult | None"))
       .def_prop_ro("crossing", &crossing_of)
       .def_prop_ro("point", [](const Climb& c) { return c.triangles ? corner(c.triangles->point) : std::nullopt; })
-      .def_prop_ro("hole", &hole_in_the_way, nb::rv_policy::reference_internal)
-      .def_prop_ro("band", [](const Climb& c) { return band_word(c.verdict.band); })
+      .def_prop_ro("hole", &hole_in_the_way, nb::rv_policy::reference_internal, nb::sig("def hole(self) -> OpenHole | None"))
+      .def_prop_ro("band", [](const Climb& c) { return band_word(c.verdict.band); },
+                   nb::sig("def band(self) -> typing.Literal['open', 'within', 'deeper', 'hidden'] | None"))
       .def_ro("thick", &Climb::thick)
       .def_ro("least_depth", &Climb::least_depth)
       .def_prop_ro("deepest", &deepest)
       .def_prop_ro("way_out", [](const Climb& c) { return c.way_within ? corner(c.way_within->move) : std::nullopt; })
-      .def_prop_ro("gap", [](const Climb& c) { return if_known(c.gap); }, nb::rv_policy::reference_internal)
+      .def_prop_ro("gap", [](const Climb& c) { return if_known(c.gap); }, nb::rv_policy::reference_internal,
+                   nb::sig("def gap(self) -> MeshDistance | None"))
       .def_ro("gap_of_holes", &Climb::gap_of_holes)
       .def_ro("box_gap", &Climb::box_gap)
-      .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); })
+      .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); },
+                   nb::sig("def boxes(self) -> typing.Literal['', 'sheared', 'unturned', 'apart', 'meet']"))
       .def_prop_ro("box_axis", &box_axis)
       .def_ro("both_convex", &Climb::both_convex)
       .def_prop_ro("nesting",
                    [](const Climb& c) { return c.nesting ? std::optional(name_of(*c.nesting)) : std::nullopt; })
-      .def_prop_ro("hulls", [](const Climb& c) { return if_known(c.hulls); }, nb::rv_policy::reference_internal)
-      .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); },
-                   nb::rv_policy::reference_internal)
+      .def_prop_ro("hulls", [](const Climb& c) { return if_known(c.hulls); }, nb::rv_policy::reference_internal,
+                   nb::sig("def hulls(self) -> PairResult | None"))
+      .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); }, nb::rv_policy::reference_internal,
+                   nb::sig("def triangles(self) -> MeshRelation | None"))
       .def_ro("nanoseconds", &Climb::nanoseconds)
       .def_prop_ro("band_nanoseconds", [](const Climb& c) { return c.nanoseconds[kBand]; });
 }
@@ -192,7 +200,7 @@ nanoseconds   the time of each rung: boxes, oriented boxes, hulls, nesting, tria
 // A batch on its way up, in threads of its own; on one thread it climbs when its result is taken.
 class Climbing {
  public:
-  Climbing(const nb::list& pairs, const std::string& last, unsigned threads, const std::string& method, std::uint64_t steps) {
+  Climbing(const nb::typed<nb::list, Question>& pairs, const std::string& last, unsigned threads, const std::string& method, std::uint64_t steps) {
     const MethodChoice choice = method_from(method);
     std::vector<ClimbRequest> requests;
     requests.reserve(pairs.size());
@@ -221,7 +229,7 @@ class Climbing {
     results_ = {};
   }
 
-  nb::list results() {
+  nb::typed<nb::list, std::optional<Climb>> results() {
     if (!results_.valid()) throw std::invalid_argument("the results have been taken");
     std::vector<std::optional<Climb>> results;
     try {
@@ -232,7 +240,7 @@ class Climbing {
       stopped_ = true;
     }
     if (stopped_) throw nb::python_error();
-    nb::list climbs;
+    nb::typed<nb::list, std::optional<Climb>> climbs;
     for (std::optional<Climb>& climb : results) climbs.append(climb ? nb::cast(std::move(*climb)) : nb::none());
     return climbs;
   }
@@ -278,13 +286,13 @@ beyond gap_limit, or at the rung `last`: "aabb", "obb", "hull" or "triangles". t
 depth_a, depth_b: a point deeper than that in A and in B shows an overlap that no tolerance of the surfaces explains.
 wants_distance: measure every gap. threads: 0: one a core; on one thread the pairs climb when the results are taken.
 method: between convex hulls, as in check_pairs. steps: the most of each pair.)")
-      .def(nb::init<const nb::list&, const std::string&, unsigned, const std::string&, std::uint64_t>(), "pairs"_a,
+      .def(nb::init<const nb::typed<nb::list, Question>&, const std::string&, unsigned, const std::string&, std::uint64_t>(), "pairs"_a,
            "last"_a = "triangles", "threads"_a = 0, "method"_a = "auto", "steps"_a = kNoEnd)
       .def("results", &Climbing::results,
            R"(Waits, then returns the results, only once: a Climb for each pair, the same for any number of threads; None: the climb
 failed, and climb() raises for this pair.)");
   m.def("climb",
-        [](const nb::typed<nb::tuple, PlacedGeometry, PlacedGeometry, double, double, double, double, bool>& pair, const std::string& first, const std::string& last, const std::string& method, std::uint64_t steps, bool alone) {
+        [](const Question& pair, const std::string& first, const std::string& last, const std::string& method, std::uint64_t steps, bool alone) {
           const ClimbRequest request = request_from(nb::cast<PairTuple>(pair), method_from(method), alone, steps);
           const Rung from = rung_from(first), to = rung_from(last);
           const nb::gil_scoped_release release;

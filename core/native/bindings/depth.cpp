@@ -23,8 +23,8 @@ using namespace nb::literals;
 namespace satcheck {
 namespace {
 
-DepthInterval checked_search(const Surface& a, const Surface& b, double upper, double lower, double width,
-                             std::uint64_t work, int across, double limit, bool prove, Progress progress) {
+DepthInterval checked_depth(const Surface& a, const Surface& b, double upper, double lower, double width,
+                            std::uint64_t work, int across, double limit, bool prove, Progress progress) {
   if (!(upper >= 0 && std::isfinite(upper))) throw std::invalid_argument("upper must be a finite length >= 0");
   if (!(lower >= 0 && std::isfinite(lower))) throw std::invalid_argument("lower must be a finite length >= 0");
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
@@ -72,7 +72,7 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
                      const Vec3 t = d.way_out;
                      return d.has_way_out ? std::optional(Tuple3{t.x, t.y, t.z}) : std::nullopt;
                    })
-      .def_prop_ro("stop", [](const DepthInterval& d) { return name_of(d.stop); })
+      .def_prop_ro("stop", [](const DepthInterval& d) { return name_of(d.stop); }, nb::sig(kStopSignature))
       .def_ro("work", &DepthInterval::work)
       .def_ro("boxes", &DepthInterval::boxes)
       .def_ro("mesh_tests", &DepthInterval::mesh_tests)
@@ -82,7 +82,7 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
         R"(A convex region that holds the seed, with no point of the surface of the solid in its interior; up to rounding it lies
 within the polytope. like: it tends to the proportions of this one. None: the seed is not inside, or too close to the
 surface to tell.)");
-  m.def("search_depth", &checked_search, "a"_a, "b"_a, nb::kw_only(), "upper"_a, "lower"_a, "width"_a, "work"_a,
+  m.def("search_depth", &checked_depth, "a"_a, "b"_a, nb::kw_only(), "upper"_a, "lower"_a, "width"_a, "work"_a,
         "across"_a = -1, "limit"_a = INFINITY, "prove"_a = false, "progress"_a.none() = nb::none(),
         nb::call_guard<nb::gil_scoped_release>(),
         R"(The depth of two overlapping meshes as a proven interval. The search ends when the interval is `width` wide, relative

@@ -108,7 +108,7 @@ bool is_fixed(nb::handle bytes) {
 }
 
 // Other bytes are copied: indices that were checked must not change.
-Inspection inspect_bytes(const nb::typed<nb::object, Bytes>& given_vertices, const nb::typed<nb::object, Bytes>& given_triangles, bool orient) {
+Inspection inspect_bytes(const nb::object& given_vertices, const nb::object& given_triangles, bool orient) {
   const auto vertices = nb::cast<Bytes>(given_vertices), triangles = nb::cast<Bytes>(given_triangles);
   const bool in_place = is_fixed(given_vertices) && is_fixed(given_triangles);
   const nb::gil_scoped_release release;
@@ -123,8 +123,8 @@ Inspection inspect_bytes(const nb::typed<nb::object, Bytes>& given_vertices, con
   return inspect(mesh, orient, interrupting());
 }
 
-nb::tuple mesh_to_bytes(const Mesh& mesh) {
-  return nb::make_tuple(nb::bytes(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vec3)),
+std::pair<nb::bytes, nb::bytes> mesh_to_bytes(const Mesh& mesh) {
+  return std::pair(nb::bytes(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vec3)),
                         nb::bytes(mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle)));
 }
 
@@ -140,8 +140,10 @@ void bind_mesh_class(nb::module_& m) {
 seen from outside. ValueError when an index is out of range or a coordinate is not finite, OverflowError
 when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing is proven there.)")
       .def("__init__", &construct_mesh,
-           nb::sig("def __init__(self, vertices: NDArray[float64], triangles: NDArray[integer]) -> None"))
-      .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a, ReleaseGil(), "From little-endian float64 x y z ... and uint32 i j k ...; needs no numpy.")
+           nb::sig("def __init__(self, vertices: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.integer]) -> None"))
+      .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a, ReleaseGil(),
+                  nb::sig("def from_bytes(vertices: bytes | memoryview, triangles: bytes | memoryview) -> Mesh"),
+                  "From little-endian float64 x y z ... and uint32 i j k ...; needs no numpy.")
       .def("to_bytes", &mesh_to_bytes, "The inverse of from_bytes.")
       .def_prop_ro("vertex_count", [](const Mesh& mesh) { return mesh.vertices.size(); })
       .def("vertex", [](const Mesh& mesh, std::size_t i) { return to_tuple(mesh.vertices.at(i)); }, "i"_a,
@@ -297,6 +299,7 @@ changed the mesh. doubtful: shells of it may be solid or cavities; it is not tur
   m.def("inspect", [](const Mesh& mesh, bool orient) { return inspect(mesh, orient, interrupting()); }, "mesh"_a, "orient"_a, ReleaseGil(),
         "mesh.welded().sorted() and its topology; with `orient` also oriented().");
   m.def("inspect_bytes", &inspect_bytes, "vertices"_a, "triangles"_a, "orient"_a,
+        nb::sig("def inspect_bytes(vertices: bytes | memoryview, triangles: bytes | memoryview, orient: bool) -> Inspection"),
         "inspect(Mesh.from_bytes(vertices, triangles), orient), but faster than both calls.");
   m.def("with_cracks_closed",
         [](const Inspection& inspection, bool orient, double width) { return with_cracks_closed(inspection, orient, width, interrupting()); },

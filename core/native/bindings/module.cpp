@@ -96,7 +96,7 @@ void bind_shapes(nb::module_& m) {
   nb::class_<HullShape, Shape> hull(m, "Hull", R"(Convex hull of points, an (n, 3) float64 array or a sequence of (x, y, z), n >= 1, or of a
 Polytope. Computed exactly; may be flat, a segment or a point. ValueError when a coordinate is not finite, OverflowError when one is
 beyond 1e45 or the points are less than 1e-45 across: nothing is proven there.)");
-  def_init(hull, "def __init__(self, points: NDArray[float64] | Sequence[Sequence[float]] | Polytope) -> None", hull_of);
+  def_init(hull, "def __init__(self, points: numpy.typing.ArrayLike | Polytope) -> None", hull_of);
   nb::class_<BoxShape, Shape> box(m, "Box", "Box around the origin; half_extents (x, y, z) > 0.");
   def_init(box, "def __init__(self, half_extents: Sequence[float]) -> None", [](const nb::args& args, const nb::kwargs& kwargs) {
     return make_box(Arguments("Box", {"half_extents"}, args, kwargs).three_numbers(0));

@@ -47,14 +47,14 @@ MotionAnswer ask(const MovingBody& a, const Moving& moving_a, const MovingBody& 
   return ask_motion(a, moving_a, b, moving_b, question, {pad, slack}, work);
 }
 
-std::int64_t index_or_minus_one(std::uint32_t triangle) { return triangle == kNoTriangle ? -1 : std::int64_t{triangle}; }
+std::int64_t index_or_minus_one(std::uint32_t triangle) { return triangle == kNoIndex ? -1 : std::int64_t{triangle}; }
 
 using Matrices = nb::ndarray<const double, nb::shape<-1, -1, 12>, nb::c_contig, nb::device::cpu>;
 using Margins = nb::ndarray<const double, nb::shape<-1, -1>, nb::c_contig, nb::device::cpu>;
-using Matrix12 = nb::ndarray<const double, nb::shape<12>, nb::c_contig, nb::device::cpu>;
-using PairTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
+using SiftedTuple = std::tuple<std::uint32_t, std::uint32_t, double, double, double>;
 using DeepTuple = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, double>;
 using Sifting = std::vector<Sifted>;
+using Codes = nb::ndarray<nb::numpy, const std::uint8_t, nb::shape<-1, -1>>;
 
 std::vector<PosedBody*> bodies_of(const nb::tuple& held, const Matrices& matrices) {
   std::vector<PosedBody*> bodies;
@@ -63,10 +63,10 @@ std::vector<PosedBody*> bodies_of(const nb::tuple& held, const Matrices& matrice
   return bodies;
 }
 
-std::pair<nb::object, std::uint64_t> sift_all(const nb::typed<nb::sequence, PosedBody>& given,
-                                              const std::vector<PairTuple>& pairs, const Matrices& matrices,
-                                              unsigned threads, const std::optional<Margins>& margins,
-                                              std::uint64_t steps) {
+std::pair<Codes, std::uint64_t> sift_all(const nb::typed<nb::sequence, PosedBody>& given,
+                                         const std::vector<SiftedTuple>& pairs, const Matrices& matrices,
+                                         unsigned threads, const std::optional<Margins>& margins,
+                                         std::uint64_t steps) {
   const nb::tuple held(given);
   const std::vector<PosedBody*> bodies = bodies_of(held, matrices);
   if (margins && (margins->shape(0) != matrices.shape(0) || margins->shape(1) != pairs.size())) {
@@ -86,8 +86,7 @@ std::pair<nb::object, std::uint64_t> sift_all(const nb::typed<nb::sequence, Pose
   auto kept = std::make_unique<Sifting>(std::move(results));
   const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Sifting*>(p); });
   const auto* values = reinterpret_cast<const std::uint8_t*>(kept.release()->data());
-  const nb::ndarray<nb::numpy, const std::uint8_t> codes(values, {matrices.shape(0), pairs.size()}, owner);
-  return {nb::cast(codes), budget.spent()};
+  return {Codes(values, {matrices.shape(0), pairs.size()}, owner), budget.spent()};
 }
 
 std::vector<bool> neither_holds_in(const nb::typed<nb::sequence, PosedBody>& given, const std::vector<DeepTuple>& pairs,
@@ -102,21 +101,6 @@ std::vector<bool> neither_holds_in(const nb::typed<nb::sequence, PosedBody>& giv
   }
   const nb::gil_scoped_release release;
   return neither_holds(bodies, deep, matrices.data());
-}
-
-void bind_listed(nb::module_& m) {
-  m.def("neither_holds", &neither_holds_in, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(),
-        R"(Whether each of two bodies in a pose is proven to reach out of the other one by more than a margin.
-
-pairs: (pose, i, j, margin) each, of the numbers of a pose and of two bodies. bodies, matrices: as in `sift`.)");
-  m.def(
-      "open_hole",
-      [](PosedBody& a, const Matrix12& at_a, PosedBody& b, const Matrix12& at_b) {
-        const nb::gil_scoped_release release;  // a thread that makes a hull polls while it holds the body
-        return open_hole(a, at_a.data(), b, at_b.data());
-      },
-      "a"_a, "matrix_a"_a.noconvert(), "b"_a, "matrix_b"_a.noconvert(),
-      "The hole that leaves a pair open in a pose in which `sift` returns 3. None: a climb has to find it.");
 }
 
 }  // namespace
@@ -175,7 +159,10 @@ in the closed mesh of the geometry `around`; the closed mesh of `within` lies in
            "corners"_a, "margin"_a, "around"_a, "within"_a, nb::call_guard<nb::gil_scoped_release>())
       .def_prop_ro("around", [](const PosedBody& self) { return std::make_pair(to_tuple(self.around().centre), self.around().radius); },
                    "A ball that holds the body: its centre and its radius.");
-  bind_listed(m);
+  m.def("neither_holds", &neither_holds_in, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(),
+        R"(Whether each of two bodies in a pose is proven to reach out of the other one by more than a margin.
+
+pairs: (pose, i, j, margin) each, of the numbers of a pose and of two bodies. bodies, matrices: as in `sift`.)");
   m.def("sift", &sift_all, "bodies"_a, "pairs"_a, "matrices"_a.noconvert(), "threads"_a = 0, "margins"_a = nb::none(),
         "steps"_a = kNoEnd,
         R"(Sorts pairs of bodies in many poses. Returns uint8 of shape (poses, pairs), and the steps that it took. 1: the bodies are apart by more than the

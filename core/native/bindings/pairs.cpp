@@ -3,6 +3,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cmath>
@@ -71,14 +72,14 @@ Query query_from(const std::string& name) {
 
 const char* name_of(Reason reason) { return reason == Reason::none ? "" : "bounds-not-closed"; }
 
-nb::object optional_number(const PairResult& r, double value) {
-  return r.has_distance ? nb::object(nb::float_(value)) : nb::none();
+std::optional<double> known(const PairResult& r, double value) {
+  return r.has_distance ? std::optional(value) : std::nullopt;
 }
-nb::object optional_vector(const PairResult& r, Vec3 v) {
-  return r.has_distance ? nb::object(nb::make_tuple(v.x, v.y, v.z)) : nb::none();
+std::optional<Tuple3> known(const PairResult& r, Vec3 v) {
+  return r.has_distance ? std::optional(to_tuple(v)) : std::nullopt;
 }
 std::int64_t index_or_minus_one(std::uint32_t index) {
-  return index == Shape::kNoIndex ? -1 : static_cast<std::int64_t>(index);
+  return index == kNoIndex ? -1 : static_cast<std::int64_t>(index);
 }
 
 constexpr const char* kPairResultDoc = R"(The result of one convex pair. World frame, units of the shapes.
@@ -97,18 +98,20 @@ feature      the feature that decides: "face-a", "face-b", "edge-edge" (with ind
 
 void bind_pair_result(nb::module_& m) {
   nb::class_<PairResult>(m, "PairResult", kPairResultDoc)
-      .def_prop_ro("outcome", [](const PairResult& r) { return name_of(r.outcome); })
+      .def_prop_ro("outcome", [](const PairResult& r) { return name_of(r.outcome); },
+                   nb::sig("def outcome(self) -> typing.Literal['separated', 'touching', 'penetrating', 'undecided']"))
       .def_prop_ro("reason", [](const PairResult& r) { return name_of(r.reason); })
-      .def_prop_ro("method", [](const PairResult& r) { return name_of(r.method); })
+      .def_prop_ro("method", [](const PairResult& r) { return name_of(r.method); },
+                   nb::sig("def method(self) -> typing.Literal['none', 'sat', 'gjk', 'epa', 'exact', 'portal']"))
       .def_prop_ro("feature", [](const PairResult& r) { return name_of(r.feature); })
       .def_prop_ro("index_a", [](const PairResult& r) { return index_or_minus_one(r.index_a); })
       .def_prop_ro("index_b", [](const PairResult& r) { return index_or_minus_one(r.index_b); })
-      .def_prop_ro("distance", [](const PairResult& r) { return optional_number(r, r.distance); })
-      .def_prop_ro("lower", [](const PairResult& r) { return optional_number(r, r.lower); })
-      .def_prop_ro("upper", [](const PairResult& r) { return optional_number(r, r.upper); })
-      .def_prop_ro("normal", [](const PairResult& r) { return optional_vector(r, r.normal); })
-      .def_prop_ro("witness_a", [](const PairResult& r) { return optional_vector(r, r.witness_a); })
-      .def_prop_ro("witness_b", [](const PairResult& r) { return optional_vector(r, r.witness_b); })
+      .def_prop_ro("distance", [](const PairResult& r) { return known(r, r.distance); })
+      .def_prop_ro("lower", [](const PairResult& r) { return known(r, r.lower); })
+      .def_prop_ro("upper", [](const PairResult& r) { return known(r, r.upper); })
+      .def_prop_ro("normal", [](const PairResult& r) { return known(r, r.normal); })
+      .def_prop_ro("witness_a", [](const PairResult& r) { return known(r, r.witness_a); })
+      .def_prop_ro("witness_b", [](const PairResult& r) { return known(r, r.witness_b); })
       .def_ro("portal_rounds", &PairResult::portal_rounds)
       .def_ro("gjk_iterations", &PairResult::gjk_iterations)
       .def_ro("epa_iterations", &PairResult::epa_iterations)
@@ -121,7 +124,8 @@ void bind_pair_result(nb::module_& m) {
 
 // A view of one field of all results, without a copy. If the query does not compute the field, one row is repeated.
 template <auto Member, class T, std::size_t Width>
-nb::object array(nb::handle self) {
+auto array(nb::handle self) {
+  using Shape = std::conditional_t<Width == 1, nb::shape<-1>, nb::shape<-1, static_cast<nb::ssize_t>(Width)>>;
   static_assert(sizeof(Field<Member>) == Width * sizeof(T));
   static const PairResult nothing{};
   const auto& results = nb::cast<const PairResults&>(self);
@@ -130,7 +134,7 @@ nb::object array(nb::handle self) {
   const std::size_t shape[2] = {results.size(), Width};
   const std::int64_t strides[2] = {rows != nullptr ? static_cast<std::int64_t>(Width) : 0, 1};
   const T* numbers = reinterpret_cast<const T*>(&first);
-  return nb::cast(nb::ndarray<nb::numpy, const T>(numbers, Width == 1 ? 1 : 2, shape, self, strides));
+  return nb::ndarray<nb::numpy, const T, Shape>(numbers, Width == 1 ? 1 : 2, shape, self, strides);
 }
 
 void bind_pair_results(nb::module_& m) {
@@ -211,7 +215,9 @@ void bind_pairs(nb::module_& m) {
         nb::gil_scoped_release release;
         return compare_signed_distance(a, pa, b, pb, length);
       },
-      nb::arg("a"), nb::arg("b"), nb::arg("length"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none());
+      nb::arg("a"), nb::arg("b"), nb::arg("length"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(),
+      nb::sig("def compare_signed_distance(a: Shape, b: Shape, length: float, pose_a: Sequence[float] | None = None, "
+              "pose_b: Sequence[float] | None = None) -> typing.Literal[-1, 0, 1] | None"));
   m.def("check_pairs", &check_many, nb::arg("shapes"), nb::arg("index_a").noconvert(),
         nb::arg("index_b").noconvert(), nb::arg("poses_a").noconvert(),
         nb::arg("poses_b").noconvert(), nb::kw_only(), nb::arg("query") = "depth", nb::arg("method") = "auto",

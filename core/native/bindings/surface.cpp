@@ -101,7 +101,7 @@ other, and a line is given by its coordinates along both.)");
 }
 
 std::int64_t triangle_number(std::uint32_t triangle) {
-  return triangle == kNoTriangle ? -1 : static_cast<std::int64_t>(triangle);
+  return triangle == kNoIndex ? -1 : static_cast<std::int64_t>(triangle);
 }
 
 void bind_mesh_relation(nb::module_& m) {
@@ -119,7 +119,8 @@ that of the surfaces without fills. decided: False if that takes more steps than
       .def_prop_ro("relation", [](const MeshRelation& r) { return r.decided ? name_of(r.relation) : "indeterminate"; })
       .def_ro("proven", &MeshRelation::proven)
       .def_ro("decided", &MeshRelation::decided)
-      .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal)
+      .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal,
+                   nb::sig("def hole(self) -> OpenHole | None"))
       .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })
       .def_prop_ro("point",
@@ -161,6 +162,7 @@ another also has a distance from its surface, so call mesh_relation first.)");
           return compare_gap(a, b, length, interrupting());
         },
         "a"_a, "b"_a, "length"_a, ReleaseGil(),
+        nb::sig("def compare_gap(a: Surface, b: Surface, length: float) -> typing.Literal[-1, 0, 1]"),
         R"(-1, 0 or 1: the distance of two surfaces without a common point is smaller than, equal to, or larger than the
 length. Decided exactly. Raises TooManySteps.)");
   m.def("moves_within",

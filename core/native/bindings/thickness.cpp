@@ -23,7 +23,7 @@ using namespace nb::literals;
 namespace satcheck {
 namespace {
 
-ThicknessInterval checked_search(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
+ThicknessInterval checked_thickness(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
                                  double less_b, std::optional<double> limit, int across, bool prove,
                                  const OverlapComponent* within, unsigned threads, Progress progress) {
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
@@ -54,8 +54,8 @@ void bind_thickness(nb::module_& m) {
       .def_ro("at", &ThicknessProof::at)
       .def_prop_ro("cuts",
                    [](const ThicknessProof& proof) {
-                     nb::list cuts;
-                     for (const HalfSpace& cut : proof.cuts) cuts.append(nb::make_tuple(to_tuple(cut.normal), cut.height));
+                     std::vector<std::pair<Tuple3, double>> cuts;
+                     for (const HalfSpace& cut : proof.cuts) cuts.emplace_back(to_tuple(cut.normal), cut.height);
                      return cuts;
                    })
       .def_ro("sums", &ThicknessProof::sums);
@@ -69,7 +69,7 @@ stop: "narrow", "decided" (the interval lies on one side of the limit) or "work 
                      return t.found ? std::optional(to_tuple(t.centre)) : std::nullopt;
                    })
       .def_ro("radius", &ThicknessInterval::radius)
-      .def_prop_ro("stop", [](const ThicknessInterval& t) { return name_of(t.stop); })
+      .def_prop_ro("stop", [](const ThicknessInterval& t) { return name_of(t.stop); }, nb::sig(kStopSignature))
       .def_ro("work", &ThicknessInterval::work)
       .def_ro("boxes", &ThicknessInterval::boxes)
       .def_prop_ro("proof", [](const ThicknessInterval& t) { return t.proof ? std::optional(*t.proof) : std::nullopt; });
@@ -84,7 +84,7 @@ belong to another component.)");
         R"(Whether two solids are free of each other when each vertex moves into its body, by most_a or most_b at most. No point
 is then deeper than that in both, and no point of one surface is deeper in the other body than the sum of both. False: not found.
 Swapping a and b with their lengths changes nothing. ValueError for a surface that is not a solid.)");
-  m.def("search_thickness", &checked_search, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
+  m.def("search_thickness", &checked_thickness, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
         "less_b"_a = 0.0, "limit"_a = nb::none(), "across"_a = -1, "prove"_a = false, "within"_a.none() = nb::none(), "threads"_a = 1,
         "progress"_a.none() = nb::none(), nb::call_guard<nb::gil_scoped_release>(),
         R"(The diameter of the largest ball inside both of two solids as a proven interval, at most `width` wide relative to its

@@ -57,6 +57,7 @@ inline const char* name_of(Relation relation) {
   return names[static_cast<int>(relation)];
 }
 
+inline constexpr const char* kStopSignature = "def stop(self) -> typing.Literal['narrow', 'decided', 'work spent']";
 inline const char* name_of(SearchStop stop) {
   constexpr const char* names[] = {"narrow", "decided", "work spent"};
   return names[static_cast<int>(stop)];

@@ -56,8 +56,8 @@ struct PairFeature {
 SATCHECK_INLINE PairFeature feature_of(int kind, int i, int k, bool swapped) {
   static constexpr Feature seen[2][4] = {{Feature::face_a, Feature::face_b, Feature::edge_edge, Feature::none},
                                   {Feature::face_b, Feature::face_a, Feature::edge_edge, Feature::none}};
-  static constexpr std::uint32_t none = Shape::kNoIndex, hides[4][2] = {{0, none}, {none, 0}, {0, 0}, {none, none}};
-  static_assert(none == ~std::uint32_t{0});
+  static constexpr std::uint32_t hides[4][2] = {{0, kNoIndex}, {kNoIndex, 0}, {0, 0}, {kNoIndex, kNoIndex}};
+  static_assert(kNoIndex == ~std::uint32_t{0});
   const std::uint32_t of_a = static_cast<std::uint32_t>(i) | hides[kind][0], of_b = static_cast<std::uint32_t>(k) | hides[kind][1];
   return {seen[swapped][kind], swapped ? of_b : of_a, swapped ? of_a : of_b};
 }
@@ -145,7 +145,7 @@ SATCHECK_INLINE PairResult by_axes(Outcome outcome, PairFeature named, int axes_
   return result;
 }
 
-constexpr PairFeature kNoFeature{Feature::none, Shape::kNoIndex, Shape::kNoIndex};
+constexpr PairFeature kNoFeature{Feature::none, kNoIndex, kNoIndex};
 
 SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const OrderedBoxes ordered = in_order(a, pose_a, b, pose_b);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -102,12 +101,12 @@ Polytope lower_dimensional(const DistinctPoints& set, const std::vector<std::uin
 }
 
 // The largest dimension of a simplex of these points, and `dimension` + 1 of them that span it.
-struct Simplex {
+struct FirstSimplex {
   int dimension;
   std::array<std::uint32_t, 4> corner;
 };
 
-Simplex first_simplex(const std::vector<Vec3>& points) {
+FirstSimplex first_simplex(const std::vector<Vec3>& points) {
   const auto count = static_cast<std::uint32_t>(points.size());
   const std::uint32_t last = count - 1;
   if (count == 1) return {0, {0}};
@@ -126,8 +125,6 @@ Simplex first_simplex(const std::vector<Vec3>& points) {
   if (fourth == count) return {2, {0, last, third}};
   return {3, {0, last, third, fourth}};
 }
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // Half-edge h = 3 t + i runs from corner i to corner i + 1 of triangle t.
 std::uint32_t next_half_edge(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -257,7 +254,7 @@ void add_solid_faces(Polytope& polytope, const std::vector<Vec3>& points,
   std::vector<std::uint32_t> faces_at(points.size(), 0);
   auto polygons = find_polygons(boundary, Border{twin, label}, faces_at);
 
-  std::vector<std::uint32_t> renumbered(points.size(), none);
+  std::vector<std::uint32_t> renumbered(points.size(), kNoIndex);
   for (std::uint32_t p = 0; p < points.size(); ++p) {
     if (faces_at[p] < 3) continue;
     renumbered[p] = static_cast<std::uint32_t>(polytope.vertices.size());

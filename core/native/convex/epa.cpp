@@ -85,7 +85,7 @@ bool turn_to_other_half(Simplex& face) {
   for (int corner = 0; corner < 3; ++corner) {
     SupportPoint& c = face.vertex[corner];
     const auto shares_both = [&](const SupportPoint& p, const SupportPoint& q) {
-      return p.index_a == c.index_a && q.index_b == c.index_b && c.index_a != Shape::kNoIndex && c.index_b != Shape::kNoIndex;
+      return p.index_a == c.index_a && q.index_b == c.index_b && c.index_a != kNoIndex && c.index_b != kNoIndex;
     };
     const SupportPoint &p = face.vertex[(corner + 1) % 3], &q = face.vertex[(corner + 2) % 3];
     const bool forward = shares_both(p, q);

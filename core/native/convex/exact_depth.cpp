@@ -18,7 +18,7 @@ namespace satcheck {
 namespace {
 
 // Measured steps of looking at a facet, of comparing two of them exactly, and of making one.
-constexpr std::uint64_t kFacetWork = 4, kComparisonWork = 500, kNewFacetWork = 2000;
+constexpr std::uint64_t kLookWork = 4, kComparisonWork = 500, kNewFacetWork = 2000;
 
 struct Facet {
   std::uint32_t corner[3];  // counter-clockwise from outside
@@ -60,7 +60,7 @@ bool is_nearer(const Facet& f, const Facet& g) {
 // The foot of the origin lies in the facet with the nearest plane. Rounded distances leave only few facets to be
 // compared exactly.
 const Facet& ExactPolytope::nearest() const {
-  spend(difference_.budget(), kFacetWork * facets_.size());
+  spend(difference_.budget(), kLookWork * facets_.size());
   const Facet* best = &*std::min_element(facets_.begin(), facets_.end(), [](const Facet& f, const Facet& g) {
     return f.distance < g.distance;
   });
@@ -128,7 +128,7 @@ int ExactPolytope::side(const ExactSupport& w, const Facet& f) const {
 }
 
 void ExactPolytope::expand(const ExactSupport& w) {
-  spend(difference_.budget(), kFacetWork * facets_.size());
+  spend(difference_.budget(), kLookWork * facets_.size());
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   std::erase_if(facets_, [&](const Facet& f) {
     if (side(w, f) < 0) return false;

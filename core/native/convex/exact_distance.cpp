@@ -15,7 +15,7 @@ namespace satcheck {
 namespace {
 
 // Measured steps of a vertex in a search for the farthest one, and of one that is compared exactly.
-constexpr std::uint64_t kVertexWork = 3, kHeightWork = 150;
+constexpr std::uint64_t kVertexWork = 3, kComparedWork = 150;
 
 Dyadic magnitude(const Dyadic& value) { return value.sign() < 0 ? -value : value; }
 
@@ -119,7 +119,7 @@ std::uint32_t ExactDifference::farthest(const std::vector<Vec3>& points, const D
   Dyadic best_height;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (height[i] < highest - slack) continue;
-    spend(budget_, kHeightWork);
+    spend(budget_, kComparedWork);
     const Dyadic exact = dot(direction, DyadicVec(points[i]));
     if (has_best && (exact - best_height).sign() <= 0) continue;
     best = i;

@@ -13,7 +13,7 @@ namespace satcheck {
 namespace {
 
 constexpr std::size_t kFirstPoints = 64;  // of each set, evenly along its order
-constexpr int kRounds = 64;
+constexpr int kMostRounds = 64;
 // For a distance, the lower bound has to reach this share of it. No caller needs more.
 constexpr double kGoodShare = 0.99;
 
@@ -62,7 +62,7 @@ std::optional<PairResult> check_hulls_of(const std::vector<Vec3>& a, const std::
                                          const Budget* budget) {
   const bool wants_depth = query == Query::depth;
   PointSet set_a(a), set_b(b);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     if (budget != nullptr) budget->tell_again(0);
     PairResult few = check_pair(set_a.hull_of_few(), {}, set_b.hull_of_few(), {}, Query::depth, MethodChoice::automatic,
                                 wants_depth ? INFINITY : 0.0);

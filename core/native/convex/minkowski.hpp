@@ -13,7 +13,7 @@ namespace satcheck {
 struct SupportPoint {
   Vec3 w;  // a - b
   Vec3 a;  // witness point on A, frame of A; the one on B is a - w
-  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
+  std::uint32_t index_a = kNoIndex, index_b = kNoIndex;
 
   // The same vertex pair; curved shapes have no indices and compare by position.
   bool same_as(const SupportPoint& other) const {

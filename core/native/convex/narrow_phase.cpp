@@ -29,7 +29,7 @@ struct CoreAnswer {
   bool has_axis = false;  // axis and witness are set
   Method method = Method::none;
   Feature feature = Feature::none;
-  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
+  std::uint32_t index_a = kNoIndex, index_b = kNoIndex;
 };
 
 bool solid_polytopes(const MinkowskiDifference& m) {

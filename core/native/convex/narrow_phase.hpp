@@ -25,7 +25,7 @@ struct PairResult {
   Reason reason = Reason::none;
   Method method = Method::none;  // the stage that decided
   Feature feature = Feature::none;
-  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
+  std::uint32_t index_a = kNoIndex, index_b = kNoIndex;
   // Signed distance, > 0 a gap, < 0 a penetration, with bounds. NaN when the query does not need it.
   bool has_distance = false;
   double distance = NAN, lower = NAN, upper = NAN;

@@ -12,8 +12,6 @@
 namespace satcheck {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
 // Measured steps: of making a facet, including its faces and edges in the hull, and of testing a point against a facet.
 constexpr std::uint64_t kFacetWork = 300, kHeightWork = 4;
 
@@ -21,13 +19,13 @@ constexpr std::uint64_t kFacetWork = 300, kHeightWork = 4;
 // permanent is replaced by a bound that holds for all points of the bounding box.
 constexpr double kPlaneBound = 10 * (std::numeric_limits<double>::epsilon() / 2);
 
-struct Facet {
+struct HullFacet {
   Triangle corner;
   std::array<std::uint32_t, 3> neighbour;  // across corner[i] -> corner[i + 1]
   Vec3 anchor, normal;                     // rounded plane, for the filter
   double bound = 0;                        // |rounded height - exact| for any point of the box
-  std::uint32_t first_above = none;       // conflict list: points strictly above
-  std::uint32_t highest = none;
+  std::uint32_t first_above = kNoIndex;  // conflict list: points strictly above
+  std::uint32_t highest = kNoIndex;
   double highest_height = 0;
   bool alive = true;
   bool visible = false;
@@ -41,7 +39,7 @@ struct HorizonEdge {
 class Builder {
  public:
   Builder(const std::vector<Vec3>& points, Budget* budget)
-      : points_(points), budget_(budget), next_above_(points.size(), none), facet_from_(points.size(), none) {
+      : points_(points), budget_(budget), next_above_(points.size(), kNoIndex), facet_from_(points.size(), kNoIndex) {
     extent_ = bounds_of(points).size();
   }
 
@@ -50,12 +48,12 @@ class Builder {
     pay();
     for (std::uint32_t f = 0; f < facets_.size(); ++f) {
       // Facets are only appended, so one pass sees every conflict list.
-      if (!facets_[f].alive || facets_[f].first_above == none) continue;
+      if (!facets_[f].alive || facets_[f].first_above == kNoIndex) continue;
       add_point(f);
       pay();
     }
     std::vector<Triangle> triangles;
-    for (const Facet& facet : facets_) {
+    for (const HullFacet& facet : facets_) {
       if (facet.alive) triangles.push_back(facet.corner);
     }
     return triangles;
@@ -63,7 +61,7 @@ class Builder {
 
  private:
   std::uint32_t add_facet(Triangle corner) {
-    Facet facet;
+    HullFacet facet;
     facet.corner = corner;
     facet.anchor = points_[corner[0]];
     const Vec3 u = points_[corner[1]] - facet.anchor, v = points_[corner[2]] - facet.anchor;
@@ -76,11 +74,11 @@ class Builder {
     return static_cast<std::uint32_t>(facets_.size() - 1);
   }
 
-  double rounded_height(const Facet& facet, std::uint32_t point) const {
+  double rounded_height(const HullFacet& facet, std::uint32_t point) const {
     return dot(facet.normal, points_[point] - facet.anchor);
   }
 
-  bool is_above(const Facet& facet, std::uint32_t point, double height) const {
+  bool is_above(const HullFacet& facet, std::uint32_t point, double height) const {
     if (height > facet.bound) return true;
     if (height < -facet.bound) return false;
     const Triangle& t = facet.corner;
@@ -89,10 +87,10 @@ class Builder {
 
   bool assign(std::uint32_t f, std::uint32_t point) {
     ++heights_;
-    Facet& facet = facets_[f];
+    HullFacet& facet = facets_[f];
     const double height = rounded_height(facet, point);
     if (!is_above(facet, point, height)) return false;
-    if (facet.highest == none || height > facet.highest_height) {
+    if (facet.highest == kNoIndex || height > facet.highest_height) {
       facet.highest = point;
       facet.highest_height = height;
     }
@@ -140,7 +138,7 @@ class Builder {
       }
     }
     for (const std::uint32_t f : visible_) {
-      const Facet& facet = facets_[f];
+      const HullFacet& facet = facets_[f];
       for (int side = 0; side < 3; ++side) {
         if (facets_[facet.neighbour[side]].visible) continue;
         horizon_.push_back(
@@ -155,7 +153,7 @@ class Builder {
       const std::uint32_t f = add_facet({edge.tail, edge.head, eye});
       facets_[f].neighbour[0] = edge.behind;
       facet_from_[edge.tail] = f;
-      Facet& behind = facets_[edge.behind];
+      HullFacet& behind = facets_[edge.behind];
       for (int side = 0; side < 3; ++side) {
         if (behind.corner[side] == edge.head) behind.neighbour[side] = f;
       }
@@ -174,8 +172,8 @@ class Builder {
     add_cone(eye);
     for (const std::uint32_t f : visible_) {
       facets_[f].alive = false;
-      std::uint32_t next = none;
-      for (std::uint32_t p = facets_[f].first_above; p != none; p = next) {
+      std::uint32_t next = kNoIndex;
+      for (std::uint32_t p = facets_[f].first_above; p != kNoIndex; p = next) {
         next = next_above_[p];
         if (p == eye) continue;
         for (std::uint32_t g = first_new; g < facets_.size(); ++g) {
@@ -194,7 +192,7 @@ class Builder {
 
   const std::vector<Vec3>& points_;
   Budget* budget_;
-  std::vector<Facet> facets_;
+  std::vector<HullFacet> facets_;
   std::vector<std::uint32_t> next_above_;  // links of the conflict lists
   std::vector<std::uint32_t> facet_from_;  // new facet whose horizon edge starts at a point
   std::vector<std::uint32_t> visible_;

@@ -20,8 +20,8 @@ struct SatResult {
   double lower = -INFINITY;  // no axis has less, up to the rounding of a support value
   Vec3 axis;  // unit, from A to B, frame of A
   Feature feature = Feature::none;
-  std::uint32_t index_a = Shape::kNoIndex;  // face or edge of the polytope of A
-  std::uint32_t index_b = Shape::kNoIndex;
+  std::uint32_t index_a = kNoIndex;  // face or edge of the polytope of A
+  std::uint32_t index_b = kNoIndex;
   int axes_tested = 0;
 };
 

@@ -40,7 +40,7 @@ Arcs classify_arcs(const EdgeArc& a, const EdgeArc& b) {
   return (a_side > 0) == (b_side > 0) ? Arcs::cross : Arcs::apart;
 }
 
-SATCHECK_WIDE double support_along(const MinkowskiDifference& m, Vec3 axis) { return dot(axis, m.support(axis).w); }
+SATCHECK_WIDE double overlap_along(const MinkowskiDifference& m, Vec3 axis) { return dot(axis, m.support(axis).w); }
 
 }  // namespace
 
@@ -60,13 +60,13 @@ SatResult sat_polytopes(const MinkowskiDifference& m, SatGoal goal) {
   for (std::size_t f = 0; f < m.a.polytope.face_count(); ++f) {
     const Vec3 axis = m.a.polytope.face_normal[f];
     ++best.axes_tested;
-    offer(support_along(m, axis), axis, Feature::face_a, f, Shape::kNoIndex);
+    offer(overlap_along(m, axis), axis, Feature::face_a, f, kNoIndex);
     if (separates()) return best;
   }
   for (std::size_t f = 0; f < m.b.polytope.face_count(); ++f) {
     const Vec3 axis = -(m.b_in_a.rotation * m.b.polytope.face_normal[f]);
     ++best.axes_tested;
-    offer(support_along(m, axis), axis, Feature::face_b, Shape::kNoIndex, f);
+    offer(overlap_along(m, axis), axis, Feature::face_b, kNoIndex, f);
     if (separates()) return best;
   }
   thread_local std::vector<EdgeArc> arcs_b;
@@ -89,7 +89,7 @@ SatResult sat_polytopes(const MinkowskiDifference& m, SatGoal goal) {
       if (dot(axis, ea.normal_left + ea.normal_right) < 0) axis = -axis;
       ++best.axes_tested;
       const auto project = [&](Vec3 along) {
-        const double overlap = support_along(m, along);
+        const double overlap = overlap_along(m, along);
         offer(overlap, along, Feature::edge_edge, i, j);
         best.lower = std::fmin(best.lower, overlap - kFlat * m.scale / length);
       };

@@ -213,22 +213,22 @@ CorePoint round_support(const Shape& shape, Vec3 d) {
     case ShapeKind::capsule:
       return {{0, 0, d.z >= 0 ? s.z : -s.z}, d.z >= 0 ? 1u : 0u};
     case ShapeKind::cylinder:
-      return {disc_support(s.x, d, d.z >= 0 ? s.z : -s.z), Shape::kNoIndex};
+      return {disc_support(s.x, d, d.z >= 0 ? s.z : -s.z), kNoIndex};
     case ShapeKind::cone: {
       const Vec3 apex{0, 0, s.z}, rim = disc_support(s.x, d, -s.z);
       if (dot(apex, d) >= dot(rim, d)) return {apex, 0};
-      return {rim, Shape::kNoIndex};
+      return {rim, kNoIndex};
     }
     case ShapeKind::ellipsoid: {
       Vec3 scaled{s.x * d.x, s.y * d.y, s.z * d.z};
       const double largest = max_abs(scaled);
-      if (largest == 0) return {{s.x, 0, 0}, Shape::kNoIndex};
+      if (largest == 0) return {{s.x, 0, 0}, kNoIndex};
       scaled = scaled * (1 / largest);  // the direction may have any length, so its square may overflow
       const double length = norm(scaled);
-      return {{s.x * (scaled.x / length), s.y * (scaled.y / length), s.z * (scaled.z / length)}, Shape::kNoIndex};
+      return {{s.x * (scaled.x / length), s.y * (scaled.y / length), s.z * (scaled.z / length)}, kNoIndex};
     }
   }
-  return {{0, 0, 0}, Shape::kNoIndex};  // not reached: these have other support functions
+  return {{0, 0, 0}, kNoIndex};  // not reached: these have other support functions
 }
 
 std::vector<Vec3> world_points(const Shape& shape, const Pose& pose) {

@@ -33,8 +33,6 @@ struct LazyFaces {
 };
 
 struct Shape {
-  static constexpr std::uint32_t kNoIndex = 0xffffffffu;
-
   // The fields that every query reads come first.
   ShapeKind kind = ShapeKind::hull;
   // For a hull. False: the vertices include all extreme points and perhaps others, and there are no faces, edges and

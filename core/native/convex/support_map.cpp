@@ -21,6 +21,8 @@ constexpr int kQueriesToPay = 256;
 // here, and the limit has 1. The sum is 77.
 constexpr double kBeaten = 128 * kUnitRoundoff;
 
+}  // namespace
+
 // Vertices that can be farthest, in the order of their indices. Entries from `count` to `padded`, a multiple of kLanes,
 // are copies of the first.
 struct Candidates {
@@ -40,6 +42,8 @@ struct Candidates {
     for (padded = count; padded % kLanes != 0; ++padded) set(padded, point(0), index[0]);
   }
 };
+
+namespace {
 
 // The direction at a place of the unfolded octahedron, u and v from -1 to 1. Exact at grid points.
 Vec3 folded(double u, double v) {

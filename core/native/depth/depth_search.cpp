@@ -313,7 +313,7 @@ class Search {
 
   // The corner planes of the triangles that decided the relation.
   std::vector<CornerPlane> met_planes(const MeshRelation& relation) const {
-    if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return {};
+    if (relation.triangle_a == kNoIndex || relation.triangle_b == kNoIndex) return {};
     return corner_planes(corners(a_.mesh, relation.triangle_a), corners(b_.mesh, relation.triangle_b));
   }
 

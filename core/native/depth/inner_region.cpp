@@ -21,7 +21,7 @@ namespace satcheck {
 namespace {
 
 // Measured steps of visiting a box or a triangle, and of testing it against a plane.
-constexpr std::uint64_t kVisitWork = 60, kPlaneWork = 3;
+constexpr std::uint64_t kVisitWork = 60, kPlaneTestWork = 3;
 
 constexpr std::size_t kMaxCuts = 74;  // planes beside the first ones
 // A plane may move inward by this share of its distance from the seed. The share doubles with the number of planes.
@@ -32,7 +32,7 @@ constexpr std::size_t kCutsToDoubleIt = 12;
 constexpr double kPlaneError = 64 * kUnitRoundoff;
 
 // Least variance of a metric's ellipsoid as a share of their sum.
-constexpr double kFlattest = 1e-6;
+constexpr double kLeastVariance = 1e-6;
 
 // Tiny coordinates that are left by rounding are out of the range of exact predicates.
 constexpr double kDust = 1e-70;
@@ -86,7 +86,7 @@ class Growth {
     while (!queue_.empty()) {
       const Candidate next = queue_.top();
       queue_.pop();
-      spend(budget_, kVisitWork + kPlaneWork * planes_.size());
+      spend(budget_, kVisitWork + kPlaneTestWork * planes_.size());
       if (next.triangle) {
         if (!cut_off(corners(solid_.mesh, next.index))) return std::nullopt;
         continue;
@@ -254,7 +254,7 @@ Metric metric_of(const std::vector<Vec3>& points) {
     yz += d.y * d.z;
     zz += d.z * d.z;
   }
-  const double least = kFlattest * (xx + yy + zz);
+  const double least = kLeastVariance * (xx + yy + zz);
   const double a = std::sqrt(std::fmax(xx, least)), b = xy / a, c = xz / a;
   const double d = std::sqrt(std::fmax(yy - b * b, least)), e = (yz - b * c) / d;
   const double f = std::sqrt(std::fmax(zz - c * c - e * e, least));

@@ -74,8 +74,8 @@ class Proof {
 
   // A triangle of one body inside the other. For a sheet this is the only kind of overlap.
   void by_triangle_within(const MeshRelation& relation) {
-    if ((relation.triangle_a == kNoTriangle) == (relation.triangle_b == kNoTriangle)) return;
-    const bool is_of_a = relation.triangle_a != kNoTriangle;
+    if ((relation.triangle_a == kNoIndex) == (relation.triangle_b == kNoIndex)) return;
+    const bool is_of_a = relation.triangle_a != kNoIndex;
     const Corners c = is_of_a ? corners(a_.mesh, relation.triangle_a) : corners(b_.mesh, relation.triangle_b);
     const std::vector<Vec3> triangle(c.begin(), c.end());
     const Vec3 middle = (c[0] + c[1] + c[2]) * (1.0 / 3);
@@ -88,7 +88,7 @@ class Proof {
   }
 
   void by_triangles(const MeshRelation& relation) {
-    if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return;
+    if (relation.triangle_a == kNoIndex || relation.triangle_b == kNoIndex) return;
     const Corners p = corners(a_.mesh, relation.triangle_a), q = corners(b_.mesh, relation.triangle_b);
     keep_deepest({p.begin(), p.end()}, {q.begin(), q.end()});
   }
@@ -97,7 +97,7 @@ class Proof {
   // The deepest of several common points: the one from the relation, and those near other crossings.
   std::optional<CommonPoint> thickest(std::optional<CommonPoint> deepest, const Surface& moved, const Surface& b,
                                       const MeshRelation& relation) const {
-    if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return deepest;
+    if (relation.triangle_a == kNoIndex || relation.triangle_b == kNoIndex) return deepest;
     std::vector<CommonPoint> tried;
     if (deepest) tried.push_back(*deepest);
     const std::vector<ContactPair> contacts = find_contacts(moved, b, AtCrossing::go_on, &budget_).contacts;

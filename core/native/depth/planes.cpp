@@ -17,21 +17,21 @@ int axis_along(Vec3 unit) {
 // Rounding error of a computed point on a wall, as a share of the largest offset.
 constexpr double kOnWall = 1e-12;
 // If the normals of walls span less than this squared volume, their corner is not used.
-constexpr double kFlattest = 1e-12;
+constexpr double kFlattestCorner = 1e-12;
 
 Vec3 on_one(const Wall& p) { return p.normal * p.offset; }
 
 // The point of least norm on two planes: in the plane of their normals.
 std::optional<Vec3> on_two(const Wall& p, const Wall& q) {
   const double c = dot(p.normal, q.normal), det = 1 - c * c;
-  if (det < kFlattest) return std::nullopt;
+  if (det < kFlattestCorner) return std::nullopt;
   return p.normal * ((p.offset - c * q.offset) / det) + q.normal * ((q.offset - c * p.offset) / det);
 }
 
 std::optional<Vec3> on_three(const Wall& p, const Wall& q, const Wall& r) {
   const Vec3 qr = cross(q.normal, r.normal), rp = cross(r.normal, p.normal), pq = cross(p.normal, q.normal);
   const double det = dot(p.normal, qr);
-  if (det * det < kFlattest) return std::nullopt;
+  if (det * det < kFlattestCorner) return std::nullopt;
   return (qr * p.offset + rp * q.offset + pq * r.offset) * (1 / det);
 }
 

@@ -19,7 +19,7 @@ constexpr double kPointError = 8 * kRoundoff;
 constexpr double kSlack = 1.001;
 
 // Measured steps of an exact sign: of any, of each digit of the point, of each pair of them.
-constexpr std::uint64_t kSignWork = 600, kDigitWork = 20, kDigitPairWork = 2;
+constexpr std::uint64_t kSignWork = 600, kDigitWork = 20, kDigitProductWork = 2;
 // The same in a plane, and of two coordinates; then for each pair of digits of the longest point.
 constexpr std::uint64_t kAreaWork = 100, kAreaDigitsWork = 8, kCompareWork = 80, kCompareDigitsWork = 2;
 
@@ -35,7 +35,7 @@ std::uint64_t digits_of(const ExactPoint& p) { return std::max({p.x.digits(), p.
 
 std::uint64_t sign_work(const ExactPoint& p) {
   const std::uint64_t digits = digits_of(p);
-  return kSignWork + kDigitWork * digits + kDigitPairWork * digits * digits;
+  return kSignWork + kDigitWork * digits + kDigitProductWork * digits * digits;
 }
 
 ExactPoint make_exact_point(Vec3 p) { return {p.x, p.y, p.z, 1.0, p, {}}; }

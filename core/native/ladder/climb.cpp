@@ -35,7 +35,7 @@ constexpr std::size_t kManyForHull = 256;
 constexpr double kLittle = 0.5;
 
 std::optional<ContactPair> crossing_of(const MeshRelation& r) {
-  if (r.triangle_a == kNoTriangle || r.triangle_b == kNoTriangle) return {};
+  if (r.triangle_a == kNoIndex || r.triangle_b == kNoIndex) return {};
   return ContactPair{r.triangle_a, r.triangle_b};
 }
 

@@ -71,7 +71,7 @@ double nested_depth(PlacedGeometry& a, PlacedGeometry& b, const Poll& poll) {
 }
 
 double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& r, Budget* budget) {
-  const bool crosses = r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle;
+  const bool crosses = r.triangle_a != kNoIndex && r.triangle_b != kNoIndex;
   const bool nested = r.relation == Relation::contains || r.relation == Relation::inside;
   const double crossing = crosses ? crossing_depth(a, b, r.triangle_a, r.triangle_b) : 0;
   return nested ? std::max(crossing, depth_inside(a, b, largest, budget)) : crossing;

@@ -72,7 +72,7 @@ class Search {
       if (found.is_free()) {
         if (const auto move = way_out(there)) return move;
       }
-      if (found.triangle_a == kNoTriangle || found.triangle_b == kNoTriangle) continue;
+      if (found.triangle_a == kNoIndex || found.triangle_b == kNoIndex) continue;
       const ContactPair next{found.triangle_a, found.triangle_b};
       if (is_deeper_at(next)) return {};
       if (walls == 1) continue;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -18,8 +17,6 @@
 
 namespace satcheck {
 namespace {
-
-constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
@@ -50,10 +47,10 @@ std::vector<Hole> make_holes(const Mesh& mesh, const std::vector<BoundaryLoop>& 
     for (const std::uint32_t v : loops[i]) sets.unite(first_at.try_emplace(v, i).first->second, i);
   }
   std::vector<Hole> holes;
-  std::vector<std::uint32_t> hole_of(loops.size(), kNowhere);
+  std::vector<std::uint32_t> hole_of(loops.size(), kNoIndex);
   for (std::uint32_t i = 0; i < loops.size(); ++i) {
     const std::uint32_t set = sets.find(i);
-    if (hole_of[set] == kNowhere) {
+    if (hole_of[set] == kNoIndex) {
       hole_of[set] = static_cast<std::uint32_t>(holes.size());
       holes.emplace_back();
     }

@@ -2,7 +2,6 @@
 // directions; that relation is carried through every patch of edges with exactly two triangles.
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,8 +14,6 @@
 
 namespace satcheck {
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // Whether two triangles that are not copies of each other run their edge in the same direction.
 bool run_the_same_way(const Mesh& mesh, const EdgeTable& edges, std::uint32_t h, std::uint32_t twin) {
@@ -46,7 +43,7 @@ bool repair_patches(Mesh& mesh, const EdgeTable& edges) {
     state[queue[0]] = kKeep;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       for (std::uint32_t h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
-        if (twins[h] == EdgeTable::kNone) continue;
+        if (twins[h] == kNoIndex) continue;
         const std::uint32_t next = twins[h] / 3;
         const bool flips = (state[queue[i]] == kFlip) != run_the_same_way(mesh, edges, h, twins[h]);
         const signed char wanted = flips ? kFlip : kKeep;
@@ -126,7 +123,7 @@ std::vector<Mesh> split_components(const Mesh& mesh, double crack_width, const P
   const EdgeTable edges(sealed.vertices.size(), sealed.triangles);
   std::vector<Mesh> result;
   std::vector<std::uint32_t> place(welded.vertices.size());
-  std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
+  std::vector<std::uint32_t> part_of(welded.vertices.size(), kNoIndex);
   Labels labels = label_components(sealed, edges);
   // What is a cavity, or may be one, shows where the mesh faces outward. The parts themselves stay as they are.
   Mesh outward = orient(sealed, &budget);

@@ -10,8 +10,6 @@
 namespace satcheck {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
-
 Vec2 flat(Vec3 p, PlaneAxes axes) { return {p[axes.i], p[axes.j]}; }
 bool equal(Vec2 p, Vec2 q) { return p.x == q.x && p.y == q.y; }
 
@@ -33,13 +31,13 @@ struct Walls {
   std::vector<std::uint32_t> next, mate, triangle;
   bool fine = true;
 
-  explicit Walls(std::size_t vertices) : next(vertices, kNone), mate(vertices, kNone), triangle(vertices, kNone) {}
+  explicit Walls(std::size_t vertices) : next(vertices, kNoIndex), mate(vertices, kNoIndex), triangle(vertices, kNoIndex) {}
 
   // p and q at one end, r at the other one.
   void add(const Mesh& mesh, PlaneAxes axes, std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t t) {
     const Vec2 at_r = flat(mesh.vertices[r], axes);
     const bool over_p = equal(flat(mesh.vertices[p], axes), at_r), over_q = equal(flat(mesh.vertices[q], axes), at_r);
-    fine = fine && over_p != over_q && next[p] == kNone;
+    fine = fine && over_p != over_q && next[p] == kNoIndex;
     next[p] = q;
     triangle[p] = t;
     mate[over_p ? p : q] = r;
@@ -65,12 +63,12 @@ bool add_loops(const Mesh& mesh, const Walls& walls, Outline& outline) {
   const PlaneAxes axes = plane_axes(outline.axis);
   std::vector<bool> seen(mesh.vertices.size(), false);
   for (std::uint32_t start = 0; start < mesh.vertices.size(); ++start) {
-    if (seen[start] || walls.next[start] == kNone || mesh.vertices[start][outline.axis] > 0) continue;
+    if (seen[start] || walls.next[start] == kNoIndex || mesh.vertices[start][outline.axis] > 0) continue;
     const auto first = static_cast<std::uint32_t>(outline.edges.size());
     for (std::uint32_t v = start; !seen[v];) {
       seen[v] = true;
       const std::uint32_t next = walls.next[v];
-      if (next == kNone || walls.mate[v] == kNone || walls.mate[next] == kNone) return false;
+      if (next == kNoIndex || walls.mate[v] == kNoIndex || walls.mate[next] == kNoIndex) return false;
       const std::uint32_t over_next = walls.mate[next];
       if (walls.next[over_next] != walls.mate[v]) return false;
       outline.edges.push_back({flat(mesh.vertices[v], axes), flat(mesh.vertices[next], axes),

@@ -8,7 +8,7 @@ namespace satcheck {
 namespace {
 
 // Measured steps of a triangle near the patch, of a triangle that may hold a point, and of a part of the plane in a list.
-constexpr std::uint64_t kTriangleWork = 100, kHoldsWork = 30, kListedWork = 5;
+constexpr std::uint64_t kNearWork = 100, kHoldsWork = 30, kPartWork = 5;
 
 // Points of a cell that are tried before its winding numbers count as undecided.
 constexpr int kAttempts = 8;
@@ -41,7 +41,7 @@ void PlaneCells::gather() {
 }
 
 void PlaneCells::look_at(PatchTriangle other, const Corners& member) {
-  spend(budget_, kTriangleWork);
+  spend(budget_, kNearWork);
   auto seen = seen_.find(key(other));
   if (seen != seen_.end() && seen->second == Seen::done) return;
   const Corners c = corners_of(other);
@@ -82,7 +82,7 @@ void PlaneCells::add_sides(PatchTriangle coplanar, bool is_member) {
 
 // side: of each corner. The part of the triangle in front of the plane runs along its trace from `from` to `to`.
 void PlaneCells::add_trace(int surface, const Corners& c, const std::array<int, 3>& side) {
-  std::uint32_t from = PlaneGraph::kNone, to = PlaneGraph::kNone;
+  std::uint32_t from = kNoIndex, to = kNoIndex;
   PlaneChange change;
   for (int i = 0; i < 3; ++i) {
     const int k = (i + 1) % 3, before = side[(i + 2) % 3];
@@ -99,7 +99,7 @@ void PlaneCells::add_trace(int surface, const Corners& c, const std::array<int, 
       return graph_.add_segment(graph_.vertex(corner), graph_.vertex(c[i]), surface, {});
     }
   }
-  if (from != PlaneGraph::kNone && to != PlaneGraph::kNone) graph_.add_segment(from, to, surface, {0, -1, -1});
+  if (from != kNoIndex && to != kNoIndex) graph_.add_segment(from, to, surface, {0, -1, -1});
 }
 
 // The triangles of the patch share area, so its cells are neighbours of neighbours of any one.
@@ -188,7 +188,7 @@ std::vector<std::uint32_t> PlaneCells::nodes_of(std::uint32_t cell) const {
 }
 
 std::vector<std::uint32_t> PlaneCells::cells_at(const LazyPoint& x) const {
-  spend(budget_, kListedWork * graph_.half_edge_count());
+  spend(budget_, kPartWork * graph_.half_edge_count());
   std::vector<std::uint32_t> cells;
   for (std::uint32_t h = 0; h < graph_.half_edge_count(); ++h) {
     const LazyPoint& node = graph_.node(graph_.start(h));

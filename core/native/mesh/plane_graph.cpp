@@ -116,13 +116,13 @@ void PlaneGraph::meet(std::uint32_t i, std::uint32_t k) {
   }
   const int s_from = side_of(o, s.from), s_to = side_of(o, s.to);
   if (s_from * s_to > 0) return;
-  const auto end = [](const Segment& of, int from, int to) { return from == 0 ? of.from : to == 0 ? of.to : kNone; };
+  const auto end = [](const Segment& of, int from, int to) { return from == 0 ? of.from : to == 0 ? of.to : kNoIndex; };
   std::uint32_t of_s = end(s, s_from, s_to), of_o = end(o, o_from, o_to);
-  if (of_s != kNone && of_o != kNone) {
+  if (of_s != kNoIndex && of_o != kNoIndex) {
     if (of_s != of_o) same_.emplace_back(of_s, of_o);
-  } else if (of_s != kNone) {
+  } else if (of_s != kNoIndex) {
     segments_[k].stops.push_back(of_s);
-  } else if (of_o != kNone) {
+  } else if (of_o != kNoIndex) {
     segments_[i].stops.push_back(of_o);
   } else {
     spend(budget_, kCrossingWork);
@@ -239,11 +239,11 @@ void PlaneGraph::trace() {
       next_[around[k] ^ 1] = around[(k + around.size() - 1) % around.size()];
     }
   }
-  outline_.assign(half_edges, kNone);
+  outline_.assign(half_edges, kNoIndex);
   for (std::uint32_t h = 0; h < half_edges; ++h) {
-    if (outline_[h] != kNone) continue;
+    if (outline_[h] != kNoIndex) continue;
     boxes_.emplace_back();
-    for (std::uint32_t g = h; outline_[g] == kNone; g = next_[g]) {
+    for (std::uint32_t g = h; outline_[g] == kNoIndex; g = next_[g]) {
       outline_[g] = static_cast<std::uint32_t>(first_.size());
       boxes_.back().include(point_box(nodes_[start(g)]));
     }
@@ -277,12 +277,12 @@ void PlaneGraph::join_outlines(DisjointSets& sets) const {
     const int along = compare(p, q, i);
     return along != 0 ? along < 0 : compare(p, q, j) < 0;
   };
-  std::vector<std::uint32_t> last(nodes_.size(), kNone);  // by part: the half-edge with the outside on its left
+  std::vector<std::uint32_t> last(nodes_.size(), kNoIndex);  // by part: the half-edge with the outside on its left
   for (std::uint32_t h = 0; h < half_edge_count(); ++h) {
     const std::uint32_t at = start(h);
     std::uint32_t& known = last[part_[at]];
-    const bool is_later = known != kNone && at == start(known) && side(at, far_end(known), nodes_[far_end(h)]) > 0;
-    if (known == kNone || is_later || (at != start(known) && is_before(at, start(known)))) known = h;
+    const bool is_later = known != kNoIndex && at == start(known) && side(at, far_end(known), nodes_[far_end(h)]) > 0;
+    if (known == kNoIndex || is_later || (at != start(known) && is_before(at, start(known)))) known = h;
   }
   // Parts with nodes of different names may touch: then a point beside the half-edge tells.
   std::vector<std::uint32_t> nodes(nodes_.size());
@@ -290,20 +290,20 @@ void PlaneGraph::join_outlines(DisjointSets& sets) const {
   const auto around_part = [&](std::uint32_t h) {
     if (const auto around = outline_around(nodes_[start(h)], part_[start(h)])) return *around;
     const auto p = inside_left_of(h, nodes, 0);
-    return p ? outline_around({p->rounded, p->error, [&] { return *p; }}, part_[start(h)]).value() : kNone;
+    return p ? outline_around({p->rounded, p->error, [&] { return *p; }}, part_[start(h)]).value() : kNoIndex;
   };
-  std::uint32_t outside = kNone;
+  std::uint32_t outside = kNoIndex;
   for (const std::uint32_t h : last) {
-    if (h == kNone) continue;
+    if (h == kNoIndex) continue;
     const std::uint32_t around = around_part(h);
-    if (around == kNone && outside == kNone) outside = outline_[h];
-    sets.unite(outline_[h], around == kNone ? outside : around);
+    if (around == kNoIndex && outside == kNoIndex) outside = outline_[h];
+    sets.unite(outline_[h], around == kNoIndex ? outside : around);
   }
 }
 
 std::optional<std::uint32_t> PlaneGraph::face_at(const LazyPoint& p) const {
-  const auto around = outline_around(p, kNone);
-  return around && *around != kNone ? std::optional(face_[*around]) : std::nullopt;
+  const auto around = outline_around(p, kNoIndex);
+  return around && *around != kNoIndex ? std::optional(face_[*around]) : std::nullopt;
 }
 
 // How many times an outline turns counter-clockwise around a point; nothing for a point on it. A ray along the first axis
@@ -343,18 +343,18 @@ bool PlaneGraph::is_within(std::uint32_t outline, std::uint32_t other) const {
   return turns.value_or(0) > 0;  // nothing: they coincide
 }
 
-// The innermost outline that has the point on its left, of the parts of the graph other than one; kNone if there is none;
+// The innermost outline that has the point on its left, of the parts of the graph other than one; kNoIndex if there is none;
 // nothing for a point on a segment. Of each part one at most has it. Outlines of different parts do not cross, so one of
 // two contains the other.
 std::optional<std::uint32_t> PlaneGraph::outline_around(const LazyPoint& p, std::uint32_t other_than) const {
   spend(budget_, kPassWork * first_.size());
-  std::uint32_t innermost = kNone;
+  std::uint32_t innermost = kNoIndex;
   for (std::uint32_t k = 0; k < first_.size(); ++k) {
     const std::uint32_t node = start(first_[k]);
     if (part_[node] == other_than || !satcheck::meet(boxes_[k], point_box(p))) continue;
     const auto turns = winding(k, p);
     if (!turns) return std::nullopt;
-    if (*turns > 0 && (innermost == kNone || is_within(k, innermost))) innermost = k;
+    if (*turns > 0 && (innermost == kNoIndex || is_within(k, innermost))) innermost = k;
   }
   return innermost;
 }

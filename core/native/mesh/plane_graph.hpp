@@ -38,8 +38,6 @@ using PlaneChanges = std::array<PlaneChange, 2>;  // of two surfaces
 
 class PlaneGraph {
  public:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-
   // plane: a triangle that is not collinear. Left and right are as seen from its front.
   PlaneGraph(const Corners& plane, Budget* budget);
   PlaneGraph(const PlaneGraph&) = delete;

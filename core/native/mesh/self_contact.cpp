@@ -119,7 +119,7 @@ void visit_uniform_parts(const std::vector<const Surface*>& surfaces, const std:
       queue.pop_back();
       for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
         const std::uint32_t u = twins[h] / 3;
-        if (twins[h] == EdgeTable::kNone || done[u] || !wanted(u) || is_collinear(corners(mesh, u), budget)) continue;
+        if (twins[h] == kNoIndex || done[u] || !wanted(u) || is_collinear(corners(mesh, u), budget)) continue;
         if (has_irregular_partners(surface, u, budget)) continue;
         done[u] = true;
         queue.push_back(u);

@@ -59,7 +59,7 @@ int order(const Mesh& a, const Mesh& b) {
 }
 
 // Measured steps of a triangle on the way.
-constexpr std::uint64_t kTriangleWork = 25;
+constexpr std::uint64_t kPassedWork = 25;
 
 // Calls compare(triangle), which lowers `best`, for the triangles of boxes with a lower bound below it, the nearest first.
 template <class Bound, class Compare>
@@ -83,7 +83,7 @@ void visit_nearest(const Surface& surface, const double& best, Bound bound, Comp
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       if (!(bound(box_at(surface.bvh, surface.mesh, i)) < best)) continue;
-      spend(budget, kTriangleWork);
+      spend(budget, kPassedWork);
       compare(surface.bvh.order[i]);
     }
   }
@@ -186,7 +186,7 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p, Budget* budget, const
     }
   };
   if (near != nullptr) {
-    spend(budget, kTriangleWork);
+    spend(budget, kPassedWork);
     compare(near->triangle);
   }
   visit_nearest(surface, best, [&](const Aabb& box) { return box_distance_squared(at, box); }, compare, budget);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -14,8 +13,6 @@
 
 namespace satcheck {
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t hash_coordinates(Vec3 p) {
   // Multiply and fold; the constant is 2^64 divided by the golden ratio.
@@ -31,14 +28,14 @@ std::uint64_t hash_coordinates(Vec3 p) {
 // A table of points. For a point it finds the first point with the same coordinates.
 class FirstOfEqual {
  public:
-  explicit FirstOfEqual(std::size_t count) : slot_(std::bit_ceil(count * 2 + 1), none) {}
+  explicit FirstOfEqual(std::size_t count) : slot_(std::bit_ceil(count * 2 + 1), kNoIndex) {}
 
   // The first equal point among the queried points, including this one.
   std::uint32_t of(const std::vector<Vec3>& points, std::uint32_t i) {
     const Vec3 p = points[i] + Vec3{};  // -0.0 + 0.0 == +0.0
     std::size_t at = hash_coordinates(p) & (slot_.size() - 1);
-    while (slot_[at] != none && !(points[slot_[at]] == p)) at = (at + 1) & (slot_.size() - 1);
-    if (slot_[at] == none) slot_[at] = i;
+    while (slot_[at] != kNoIndex && !(points[slot_[at]] == p)) at = (at + 1) & (slot_.size() - 1);
+    if (slot_[at] == kNoIndex) slot_[at] = i;
     return slot_[at];
   }
 
@@ -153,7 +150,7 @@ Mesh weld(const Mesh& mesh) {
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (referenced[v]) kept[first[v]] = true;
   }
-  std::vector<std::uint32_t> renumbered(points.size(), none);
+  std::vector<std::uint32_t> renumbered(points.size(), kNoIndex);
   for (std::uint32_t v = 0; v < points.size(); ++v) {
     if (!kept[v]) continue;
     renumbered[v] = static_cast<std::uint32_t>(result.vertices.size());

@@ -30,13 +30,13 @@ Vec3 unit_or_zero(Vec3 v) {
 }
 
 Vec3 inward(const Surface& s, std::uint32_t triangle) {
-  if (triangle == kNoTriangle) return {};
+  if (triangle == kNoIndex) return {};
   const Corners c = corners(s.mesh, triangle);
   return -unit_or_zero(rounded_normal(c[0], c[1], c[2]));
 }
 
 double longest_edge(const Surface& s, std::uint32_t triangle) {
-  if (triangle == kNoTriangle) return 0;
+  if (triangle == kNoIndex) return 0;
   const Corners c = corners(s.mesh, triangle);
   return std::fmax(norm(c[1] - c[0]), std::fmax(norm(c[2] - c[1]), norm(c[0] - c[2])));
 }
@@ -44,9 +44,9 @@ double longest_edge(const Surface& s, std::uint32_t triangle) {
 // If triangles meet, a common point of both. Else the middle of the triangle that lies inside the other body, because
 // the way inward from a corner may run along an edge.
 Vec3 starting_point(const Surface& a, const Surface& b, const MeshRelation& r) {
-  if (r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle) return *r.point;
-  const bool inner_is_a = r.triangle_a != kNoTriangle;
-  if (!inner_is_a && r.triangle_b == kNoTriangle) return *r.point;
+  if (r.triangle_a != kNoIndex && r.triangle_b != kNoIndex) return *r.point;
+  const bool inner_is_a = r.triangle_a != kNoIndex;
+  if (!inner_is_a && r.triangle_b == kNoIndex) return *r.point;
   const Corners c = inner_is_a ? corners(a.mesh, r.triangle_a) : corners(b.mesh, r.triangle_b);
   return (c[0] + c[1] + c[2]) * (1.0 / 3);
 }

@@ -10,7 +10,7 @@ namespace satcheck {
 namespace {
 
 // Measured steps of a triangle that is looked up.
-constexpr std::uint64_t kTriangleWork = 300;
+constexpr std::uint64_t kLookupWork = 300;
 
 // A number that triangles with the same corners have in common, whatever their order, and few others.
 std::uint64_t key_of(const Corners& c) {
@@ -56,9 +56,9 @@ int shared_edge(const Corners& t, const Corners& other) {
 }  // namespace
 
 CommonTriangles::CommonTriangles(const Surface& a, const Surface& b, Budget* budget) : a_(a), b_(b), budget_(budget) {
-  spend(budget_, kTriangleWork * (a.mesh.triangles.size() + b.mesh.triangles.size()));
-  of_a_.assign(a.mesh.triangles.size(), kNone);
-  of_b_.assign(b.mesh.triangles.size(), kNone);
+  spend(budget_, kLookupWork * (a.mesh.triangles.size() + b.mesh.triangles.size()));
+  of_a_.assign(a.mesh.triangles.size(), kNoIndex);
+  of_b_.assign(b.mesh.triangles.size(), kNoIndex);
   const auto keyed_a = keyed_triangles(a.mesh, b.bvh.nodes[0].box), keyed_b = keyed_triangles(b.mesh, a.bvh.nodes[0].box);
   auto u = keyed_b.begin();
   for (const Keyed& t : keyed_a) {
@@ -70,15 +70,15 @@ CommonTriangles::CommonTriangles(const Surface& a, const Surface& b, Budget* bud
     of_b_[u->number] = t.number;
     ++count_;
   }
-  across_.assign(3 * of_a_.size(), kNone);
+  across_.assign(3 * of_a_.size(), kNoIndex);
   irregular_.assign(of_a_.size(), false);
 }
 
 bool CommonTriangles::note(std::uint32_t ta, std::uint32_t tb) {
   const std::uint32_t copy_b = of_a_[ta], copy_a = of_b_[tb];
-  if (copy_b == kNone && copy_a == kNone) return false;
+  if (copy_b == kNoIndex && copy_a == kNoIndex) return false;
   if (copy_b == tb) return true;
-  const bool in_b = copy_b != kNone;  // compares the copy of ta with tb; otherwise ta with the copy of tb
+  const bool in_b = copy_b != kNoIndex;  // compares the copy of ta with tb; otherwise ta with the copy of tb
   if (last_ != ta) {
     if (in_b) {
       compared_.emplace(b_.mesh, copy_b, budget_);
@@ -89,13 +89,13 @@ bool CommonTriangles::note(std::uint32_t ta, std::uint32_t tb) {
   }
   const Corners other = in_b ? corners(b_.mesh, tb) : corners(a_.mesh, ta);
   const std::uint32_t common = in_b ? ta : copy_a;
-  if ((!in_b || copy_a == kNone) && is_collinear(other, budget_)) return false;
+  if ((!in_b || copy_a == kNoIndex) && is_collinear(other, budget_)) return false;
   if (compared_->has_more_in_common_with(in_b ? tb : copy_a)) {
     irregular_[common] = true;
     return false;
   }
-  note_neighbour(common, other, in_b && copy_a != kNone ? copy_a : kSeveral);
-  return in_b && copy_a != kNone;
+  note_neighbour(common, other, in_b && copy_a != kNoIndex ? copy_a : kSeveral);
+  return in_b && copy_a != kNoIndex;
 }
 
 // number: the other triangle, if it is common.
@@ -103,14 +103,14 @@ void CommonTriangles::note_neighbour(std::uint32_t t, const Corners& other, std:
   const int edge = shared_edge(corners(a_.mesh, t), other);
   if (edge < 0) return;
   std::uint32_t& across = across_[3 * t + static_cast<std::uint32_t>(edge)];
-  across = across == kNone ? number : kSeveral;
+  across = across == kNoIndex ? number : kSeveral;
 }
 
 std::vector<std::vector<ContactPair>> CommonTriangles::regions() const {
   std::vector<std::vector<ContactPair>> regions;
   std::vector<bool> done = irregular_;
   for (std::uint32_t first = 0; first < of_a_.size(); ++first) {
-    if (of_a_[first] == kNone || done[first]) continue;
+    if (of_a_[first] == kNoIndex || done[first]) continue;
     std::vector<ContactPair>& region = regions.emplace_back();
     const auto add = [&](std::uint32_t t) {
       if (t >= kSeveral || done[t]) return;
@@ -129,7 +129,7 @@ std::vector<std::vector<ContactPair>> CommonTriangles::regions() const {
 std::vector<ContactPair> CommonTriangles::irregular() const {
   std::vector<ContactPair> pairs;
   for (std::uint32_t t = 0; t < of_a_.size(); ++t) {
-    if (of_a_[t] != kNone && irregular_[t]) pairs.push_back({t, of_a_[t]});
+    if (of_a_[t] != kNoIndex && irregular_[t]) pairs.push_back({t, of_a_[t]});
   }
   return pairs;
 }

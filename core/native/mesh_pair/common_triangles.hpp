@@ -29,18 +29,18 @@ class CommonTriangles {
   std::vector<ContactPair> irregular() const;
 
  private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF, kSeveral = 0xFFFFFFFE;
+  static constexpr std::uint32_t kSeveral = kNoIndex - 1;
 
   void note_neighbour(std::uint32_t t, const Corners& other, std::uint32_t number);
 
   const Surface &a_, &b_;
   Budget* budget_;
   std::size_t count_ = 0;
-  std::vector<std::uint32_t> of_a_, of_b_;  // of each triangle of A that of B, and the other way round, or kNone
+  std::vector<std::uint32_t> of_a_, of_b_;  // of each triangle of A that of B, and the other way round, or kNoIndex
   std::vector<std::uint32_t> across_;       // each edge of A's triangles: the common triangle there, of A
   std::vector<bool> irregular_;             // by triangle of A
   std::optional<MeshTriangle> compared_;    // ta, or its copy in B
-  std::uint32_t last_ = kNone;              // the ta of compared_
+  std::uint32_t last_ = kNoIndex;              // the ta of compared_
 };
 
 }  // namespace satcheck

@@ -110,7 +110,7 @@ class ContactSide {
   std::uint32_t partner_of(std::uint32_t triangle) const {
     const auto at = std::lower_bound(contacts_.begin(), contacts_.end(), triangle,
                                      [](const ContactTriangle& c, std::uint32_t t) { return c.triangle < t; });
-    return at != contacts_.end() && at->triangle == triangle ? at->partner : kNoTriangle;
+    return at != contacts_.end() && at->triangle == triangle ? at->partner : kNoIndex;
   }
 
   Side side_;

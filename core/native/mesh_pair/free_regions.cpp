@@ -11,11 +11,11 @@ namespace satcheck {
 namespace {
 
 // Measured steps of joining a triangle to its neighbours.
-constexpr std::uint64_t kTriangleWork = 10;
+constexpr std::uint64_t kJoinWork = 10;
 
 template <class IsFree>
 DisjointSets connect_corners(const Mesh& mesh, IsFree is_free, Budget* budget) {
-  spend(budget, kTriangleWork * mesh.triangles.size());
+  spend(budget, kJoinWork * mesh.triangles.size());
   DisjointSets sets(mesh.vertices.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!is_free(t)) continue;
@@ -72,7 +72,7 @@ bool FreeRegions::sample_centre(std::uint32_t t, int theirs, Samples& samples) c
   const Corners c = corners(side_.self.mesh, t);
   const ExactPoint p = weighted_point(c[0], c[1], c[2], 1.0, 1.0, 1.0);
   const auto mine = winding_beside(side_.self.mesh, side_.self.bvh, p, c[0], c[1], c[2], {}, side_.budget);
-  return samples.note_point(side_, t, kNoTriangle, p, mine, Beside{theirs, theirs});
+  return samples.note_point(side_, t, kNoIndex, p, mine, Beside{theirs, theirs});
 }
 
 void FreeRegions::sample_every_piece(Samples& samples) const {
@@ -89,7 +89,7 @@ void FreeRegions::sample_every_piece(Samples& samples) const {
     return !samples.settled();
   };
   const auto patch = [&](const PlaneCells& cells) {
-    samples.note_cells(side_, cells, [](PatchTriangle) { return kNoTriangle; });
+    samples.note_cells(side_, cells, [](PatchTriangle) { return kNoIndex; });
     return !samples.settled();
   };
   visit_uniform_parts({&side_.self, &side_.other}, wanted, plain, patch, side_.budget);

@@ -47,7 +47,7 @@ class Beyond {
   double length_, permanent_;
 };
 
-struct NodePair {
+struct NearNodes {
   double distance_squared;
   std::uint32_t a, b;
 };
@@ -64,7 +64,7 @@ class DistanceSearch {
     push(0, 0);
     // Depth first, nearer child first, so that the bound is good early and the stack is short.
     while (!stack_.empty() && result_.distance > 0) {
-      const NodePair pair = stack_.back();
+      const NearNodes pair = stack_.back();
       stack_.pop_back();
       spend(budget_, kNodesWork);
       if (!(pair.distance_squared <= bound_)) continue;
@@ -83,12 +83,12 @@ class DistanceSearch {
  private:
   static double size(const BvhNode& node) { return norm_squared(node.box.size()); }
 
-  NodePair make(std::uint32_t a, std::uint32_t b) const {
+  NearNodes make(std::uint32_t a, std::uint32_t b) const {
     return {box_distance_squared(a_.bvh.nodes[a].box, b_.bvh.nodes[b].box), a, b};
   }
   void push(std::uint32_t a, std::uint32_t b) { stack_.push_back(make(a, b)); }
   void push_two(std::pair<std::uint32_t, std::uint32_t> x, std::pair<std::uint32_t, std::uint32_t> y) {
-    NodePair first = make(x.first, x.second), second = make(y.first, y.second);
+    NearNodes first = make(x.first, x.second), second = make(y.first, y.second);
     if (first.distance_squared < second.distance_squared) std::swap(first, second);
     stack_.push_back(first);
     stack_.push_back(second);
@@ -110,7 +110,7 @@ class DistanceSearch {
         spend(budget_, kDistanceWork);
         const NearestPoints w = triangle_distance(ca, cb);
         const bool improves = w.distance_squared < bound_ ||
-                              (w.distance_squared == bound_ && result_.triangle_a == kNoTriangle);
+                              (w.distance_squared == bound_ && result_.triangle_a == kNoIndex);
         if (!improves || (counts_ && !counts_(ta, tb))) continue;
         bound_ = w.distance_squared;
         result_ = {std::sqrt(w.distance_squared), w.a, w.b, ta, tb};
@@ -125,7 +125,7 @@ class DistanceSearch {
   double bound_;
   double rounding_ = 0;  // of a distance that is computed
   MeshDistance result_;
-  std::vector<NodePair> stack_;
+  std::vector<NearNodes> stack_;
 };
 
 MeshDistance distance_in_order(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts,

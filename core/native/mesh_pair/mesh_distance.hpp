@@ -12,7 +12,7 @@ namespace satcheck {
 struct MeshDistance {
   double distance = INFINITY;  // |witness_b - witness_a|; infinite when beyond the limit
   Vec3 witness_a, witness_b;
-  std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;
+  std::uint32_t triangle_a = kNoIndex, triangle_b = kNoIndex;
 };
 
 // A test of one triangle of each surface.

@@ -147,8 +147,8 @@ MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceC
     if (!overlaps(result) && !by_the_surfaces) result.hole = holes.touched;
   }
   result.proven = result.proven && !result.hole;
-  if (result.triangle_a >= a.mesh.triangles.size()) result.triangle_a = kNoTriangle;
-  if (result.triangle_b >= b.mesh.triangles.size()) result.triangle_b = kNoTriangle;
+  if (result.triangle_a >= a.mesh.triangles.size()) result.triangle_a = kNoIndex;
+  if (result.triangle_b >= b.mesh.triangles.size()) result.triangle_b = kNoIndex;
   return result;
 }
 
@@ -168,7 +168,7 @@ bool boxes_only_touch(const Surface& a, const Surface& b) {
 MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted, Budget* budget) {
   if (same_geometry(a, b)) {
     const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
-    return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
+    return make_relation(Relation::coincident, Evidence{0, kNoIndex, point});
   }
   if (const auto in_plane = prism_relation(a, b)) return *in_plane;
   const bool closed = a.solid && b.solid, apart = closed && boxes_only_touch(a, b);

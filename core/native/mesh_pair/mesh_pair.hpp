@@ -19,8 +19,6 @@ namespace satcheck {
 
 enum class Relation { separated, touching, penetrating, contains, inside, coincident };
 
-inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
-
 // A hole that leaves the relation open, because its fill may meet the other body. doubtful: it is a shell that may be solid
 // or the wall of a cavity.
 struct OpenHole {
@@ -37,7 +35,7 @@ struct MeshRelation {
   bool proven = true;
   bool decided = true;  // false: deciding takes more steps than a pair may; the relation then says nothing
   std::optional<OpenHole> hole;  // if set, the relation is that of the surfaces without fills
-  std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // evidence
+  std::uint32_t triangle_a = kNoIndex, triangle_b = kNoIndex;  // evidence
   std::optional<Vec3> point;  // a common point, rounded
   std::size_t box_tests = 0, triangle_tests = 0;
   std::optional<std::size_t> edge_tests;  // instead of both, if outlines of prisms decided

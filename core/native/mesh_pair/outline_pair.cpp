@@ -190,7 +190,7 @@ class PrismPair {
                                                                         : Relation::penetrating;
     const bool inner_b = !of_b.empty();
     const OutlineEdge& edge = inner_b ? in_b_.edges[of_b[0]] : in_a_.edges[of_a[0]];
-    return make_relation(relation, inner_b ? kNoTriangle : edge.wall[0], inner_b ? edge.wall[0] : kNoTriangle,
+    return make_relation(relation, inner_b ? kNoIndex : edge.wall[0], inner_b ? edge.wall[0] : kNoIndex,
                          in_space(edge.from, in_a_.axis));
   }
 
@@ -236,7 +236,7 @@ Vec2 common_corner(const OutlineEdge& e, const OutlineEdge& f) {
   return lies_on(f.from, e) ? f.from : lies_on(f.to, e) ? f.to : lies_on(e.from, f) ? e.from : e.to;
 }
 
-struct NodePair {
+struct OutlineNodes {
   double squared;
   OutlineNode a, b;
 };
@@ -250,7 +250,7 @@ class OutlineSearch {
   bool run() {
     push(a_.root(), b_.root());
     while (!stack_.empty() && least_ > 0) {
-      const NodePair pair = stack_.back();
+      const OutlineNodes pair = stack_.back();
       stack_.pop_back();
       if (!(pair.squared <= least_)) continue;
       const OutlineNode &m = pair.a, &n = pair.b;
@@ -318,7 +318,7 @@ class OutlineSearch {
   const Outline &a_, &b_;
   double least_;
   bool found_ = false;
-  std::vector<NodePair> stack_;
+  std::vector<OutlineNodes> stack_;
 };
 
 // The triangle of the wall that is nearer to the point.

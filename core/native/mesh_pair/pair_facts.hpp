@@ -13,7 +13,7 @@
 namespace satcheck {
 
 struct Evidence {
-  std::uint32_t triangle_a, triangle_b;  // kNoTriangle: none
+  std::uint32_t triangle_a, triangle_b;  // kNoIndex: none
   Vec3 point;                            // rounded
 };
 

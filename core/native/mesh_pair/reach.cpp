@@ -18,7 +18,7 @@ namespace satcheck {
 namespace {
 
 // Measured steps of a piece, without the queries in it, and of the distance of two triangles.
-constexpr std::uint64_t kPieceWork = 100, kTriangleWork = 200;
+constexpr std::uint64_t kPieceWork = 100, kTrianglesWork = 200;
 
 // Pieces after which the bounds of a deviation are returned as they are.
 constexpr std::size_t kMostPieces = 2'000'000;
@@ -32,7 +32,7 @@ constexpr double kConvex = 1e-13;
 // How far a piece is pushed inwards, as a share of a bound that is wanted: room for rounding.
 constexpr double kPush = 0.99;
 
-struct Piece {
+struct ReachPiece {
   Vec3 centre;
   double radius = 0;
   double distance;  // of the centre from the surface
@@ -40,9 +40,9 @@ struct Piece {
   std::uint32_t nearest;  // the triangle nearest to the centre
 };
 
-Piece measured(const Corners& c, const Surface& solid, Budget& budget) {
+ReachPiece measured(const Corners& c, const Surface& solid, Budget& budget) {
   budget.spend(kPieceWork);
-  Piece piece{(c[0] + c[1] + c[2]) * (1.0 / 3), 0, 0, 0, 0};
+  ReachPiece piece{(c[0] + c[1] + c[2]) * (1.0 / 3), 0, 0, 0, 0};
   const NearestPoint nearest = nearest_point(solid, piece.centre, &budget);
   piece.distance = nearest.distance;
   piece.nearest = nearest.triangle;
@@ -155,7 +155,7 @@ class Outside {
       if (distance_to(surface, v) >= limit) return limit;
     }
     if (std::isfinite(member.defect)) return farthest_corner(c, surface) + member.defect;
-    const Piece piece = measured(c, surface, budget_);
+    const ReachPiece piece = measured(c, surface, budget_);
     double upper = piece.farthest;
     if (!(upper > enough())) return upper;
     const bool inside = is_inside(surface, piece.centre, budget_);
@@ -191,7 +191,7 @@ class Outside {
       longest = std::fmax(longest, norm(moved[i] - c[i]));
     }
     const bool apart = visit_box(surface.bvh, surface.mesh, bounds_of(moved), [&](std::uint32_t t) {
-      budget_.spend(kTriangleWork);
+      budget_.spend(kTrianglesWork);
       return classify(moved, corners(surface.mesh, t), &budget_) == TriangleContact::disjoint;
     }, &budget_);
     return apart && is_inside(surface, moved[0], budget_) ? longest : INFINITY;
@@ -245,7 +245,7 @@ class Inside {
   // Whether a point of the piece does for certain. Opens the piece if one may.
   bool reaches(const Corners& c) {
     if (!meet(bounds_of(c), core_)) return false;
-    const Piece piece = measured(c, solid_, budget_);
+    const ReachPiece piece = measured(c, solid_, budget_);
     if (piece.farthest <= length_) return false;
     const auto winding = winding_number(solid_, piece.centre, &budget_);
     if (winding && *winding != 0 && piece.distance > length_) return true;
@@ -256,7 +256,7 @@ class Inside {
 
   bool meets_surface(const Corners& c) {
     return !visit_box(solid_.bvh, solid_.mesh, bounds_of(c), [&](std::uint32_t t) {
-      budget_.spend(kTriangleWork);
+      budget_.spend(kTrianglesWork);
       return triangle_distance(c, corners(solid_.mesh, t), &budget_).distance_squared != 0;
     }, &budget_);
   }

@@ -120,13 +120,13 @@ class Samples {
       }
       note_beside(side, *mine, *theirs, [&] {
         const ExactPoint p = cells.inside(cell);
-        std::uint32_t t = kNoTriangle, u = kNoTriangle;
+        std::uint32_t t = kNoIndex, u = kNoIndex;
         for (const PatchTriangle& member : cells.members_at(p)) {
           std::uint32_t& first = member.surface == 0 ? t : u;
-          if (first == kNoTriangle) first = member.triangle;
+          if (first == kNoIndex) first = member.triangle;
         }
-        if (t == kNoTriangle) t = partner(PatchTriangle{1, u});
-        if (u == kNoTriangle) u = partner(PatchTriangle{0, t});
+        if (t == kNoIndex) t = partner(PatchTriangle{1, u});
+        if (u == kNoIndex) u = partner(PatchTriangle{0, t});
         return side.evidence(t, u, p.rounded);
       });
     }

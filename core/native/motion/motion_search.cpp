@@ -157,7 +157,7 @@ class ShapeTree {
   const PlacedShape& whole(std::uint32_t) const { return part_; }
   template <class Visit>
   void each_part(std::uint32_t, Visit&& visit) const {
-    visit(part_, kNoTriangle);
+    visit(part_, kNoIndex);
   }
 
  private:

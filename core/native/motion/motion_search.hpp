@@ -20,7 +20,7 @@ namespace satcheck {
 struct MotionAnswer {
   double value;                // a proven lower bound of the requested value
   double upper = INFINITY;     // of the distance of the bodies now, among the visited pairs
-  std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // the nearest obstacle
+  std::uint32_t triangle_a = kNoIndex, triangle_b = kNoIndex;  // the nearest obstacle
   std::uint64_t visits = 0;    // pairs of boxes and triangles
 };
 

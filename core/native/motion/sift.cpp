@@ -3,8 +3,10 @@
 #include "motion/sift.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
@@ -148,31 +150,6 @@ bool hole_in_the_way(Side holed, Side other, double rounding) {
                      [&](const Surface& hull) { return is_in_the_way(hull, holed, other, rounding); });
 }
 
-Hole in_world(const Hole& hole, Side holed) {
-  Hole placed;
-  for (const std::uint32_t v : hole.vertices()) {
-    placed.box.include(holed.at.linear * holed.body.surface().mesh.vertices[v] + holed.at.offset);
-  }
-  return placed;
-}
-
-std::optional<OpenHole> largest_in_the_way(Side holed, Side other, bool is_a, double rounding) {
-  const Closing& closing = *holed.body.filled().closing;
-  std::size_t largest = 0;
-  Hole hole;
-  double size = -INFINITY, next = -INFINITY;
-  for (std::size_t k = 0; k < closing.holes.size(); ++k) {
-    const Hole placed = in_world(closing.holes[k], holed);
-    next = std::max(next, std::min(size, placed.diameter()));
-    if (!(placed.diameter() > size)) continue;
-    largest = k;
-    hole = placed;
-    size = placed.diameter();
-  }
-  if (!(size > next + 2 * rounding) || !is_in_the_way(closing.hulls[largest], holed, other, rounding)) return {};
-  return OpenHole{is_a, 0, closing.holes.size(), hole.centre(), size, closing.holes[largest].loops.empty()};
-}
-
 // Two bodies, at least one of them open. True: the hull of a hole has a common inner point with the other body, and a
 // point outside of it, however the vertices in the world are rounded by at most `rounding`. The bodies have meshes whose
 // surfaces do not meet.
@@ -180,15 +157,6 @@ bool fills_differ(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const Pose
   const Side of_a{a, at_a}, of_b{b, at_b};
   if (of_a.may_merge(rounding) || of_b.may_merge(rounding)) return false;
   return hole_in_the_way(of_a, of_b, rounding) || hole_in_the_way(of_b, of_a, rounding);
-}
-
-// The hole of that kind that comes first in a comparison of the bodies in the world: the largest one there of the only
-// open body. Empty if both are open, if it is not of that kind, or if rounding may make another one the largest.
-std::optional<OpenHole> open_hole(PosedBody& a, const PosedPlace& at_a, PosedBody& b, const PosedPlace& at_b,
-                                  double rounding) {
-  const Side of_a{a, at_a}, of_b{b, at_b};
-  if (of_a.is_open() == of_b.is_open()) return {};
-  return of_a.is_open() ? largest_in_the_way(of_a, of_b, true, rounding) : largest_in_the_way(of_b, of_a, false, rounding);
 }
 
 class PoseSifter {
@@ -227,7 +195,8 @@ class PoseSifter {
     budget_.spend(kStepsOfPair);
     if (budget_.is_spent()) return Sifted::open;
     const double depth = pair.depth + rounding;
-    if (have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
+    const bool asked = pair.depth < INFINITY;
+    if (asked && have_deep_point(place_a, place_b, a, b, depth)) return Sifted::deep;
     const bool have_meshes = a.has_mesh() && b.has_mesh();
     // A crossing of a mesh around a body proves no overlap.
     const auto [meeting, segment] = meeting_of(a, at_a, b, at_b, gap_limit, have_meshes ? pair.crossing : INFINITY, budget_);
@@ -236,7 +205,7 @@ class PoseSifter {
     if (meeting == Meeting::deep) return Sifted::deep;
     if (meeting == Meeting::by_fill && have_meshes && fills_differ(a, at_a, b, at_b, rounding)) return Sifted::undecided;
     const Surface *in_a = a.material(), *in_b = b.material();
-    if (!in_a || !in_b) return Sifted::open;
+    if (!asked || !in_a || !in_b) return Sifted::open;
     const auto crossing = have_meshes ? segment : crossing_of(*in_a, at_a, *in_b, at_b, budget_);
     const bool deep = crossing && ball_beside(*crossing, *in_a, at_a, *in_b, at_b, depth);
     return deep ? Sifted::deep : Sifted::open;
@@ -274,11 +243,6 @@ std::vector<bool> neither_holds(const std::vector<PosedBody*>& bodies, const std
     results.push_back(sticks_out(a, at_a, b, at_b, margin) && sticks_out(b, at_b, a, at_a, margin));
   }
   return results;
-}
-
-std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b) {
-  const PosedPlace at_a = place_at(a, matrix_a), at_b = place_at(b, matrix_b);
-  return open_hole(a, at_a, b, at_b, rounding_between(at_a, at_b));
 }
 
 std::vector<Sifted> sift(const std::vector<PosedBody*>& bodies, const std::vector<SiftedPair>& pairs,

@@ -6,9 +6,7 @@
 // all rounding (kPosedRounding).
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/budget.hpp"
@@ -20,7 +18,8 @@ namespace satcheck {
 enum class Sifted : std::uint8_t {
   open,       // none of these is proven
   apart,      // by more than the gap limit of the pair
-  deep,       // a point lies deeper in both bodies than `depth`, or no translation up to `crossing` ends the overlap
+  deep,       // a point lies deeper in both bodies than `depth`, or no translation up to `crossing` ends the overlap;
+              // not looked for if `depth` is infinite
   undecided,  // the surfaces are apart, and whether the bodies overlap depends on the fill of a hole
 };
 
@@ -47,8 +46,5 @@ struct DeepPair {
 // Whether each body of a pair reaches out of the other one by more than the margin.
 std::vector<bool> neither_holds(const std::vector<PosedBody*>& bodies, const std::vector<DeepPair>& pairs,
                                 const double* matrices);
-
-// Of a pair that is undecided in this pose: the hole that a climb names. Empty if only the climb can tell.
-std::optional<OpenHole> open_hole(PosedBody& a, const double* matrix_a, PosedBody& b, const double* matrix_b);
 
 }  // namespace satcheck

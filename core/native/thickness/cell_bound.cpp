@@ -300,7 +300,7 @@ class CellBound {
       const auto is_near = [&](const Aabb& box) { return box_distance_squared(at, box) <= reach * reach; };
       visit_where(surface.bvh, surface.mesh, is_near, [&](std::uint32_t t) {
         const std::uint32_t i = bodies_.patches(body).patch_of[t];
-        if (i != kNoPatch) compare(i);
+        if (i != kNoIndex) compare(i);
         return true;
       }, &budget_);
     }

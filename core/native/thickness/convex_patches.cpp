@@ -42,7 +42,7 @@ class Merging {
   ConvexPatches run() {
     for (const Seam& seam : flat_seams()) merge(seam);
     ConvexPatches result;
-    result.patch_of.assign(mesh_.triangles.size(), kNoPatch);
+    result.patch_of.assign(mesh_.triangles.size(), kNoIndex);
     std::vector<std::uint32_t> sizes(triangles_.size(), 0);
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) ++sizes[sets_.find(i)];
     std::size_t corners = 0;

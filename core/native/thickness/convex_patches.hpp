@@ -15,13 +15,11 @@ struct Patch {
   double slack;  // no point of the patch is farther from its triangles, beside rounding
 };
 
-inline constexpr std::uint32_t kNoPatch = 0xffffffff;
-
 struct ConvexPatches {
   std::vector<Patch> patches;
   std::vector<Vec3> outlines;            // counter-clockwise seen from the side of the normal
   std::vector<std::uint32_t> triangles;  // numbers in the mesh
-  std::vector<std::uint32_t> patch_of;   // each triangle of the mesh; kNoPatch: none
+  std::vector<std::uint32_t> patch_of;   // each triangle of the mesh; kNoIndex: none
   std::vector<Aabb> boxes;               // of each patch, where they are few; empty: not kept
 
   Aabb box(std::uint32_t number) const { return boxes.empty() ? box_of(patches[number]) : boxes[number]; }

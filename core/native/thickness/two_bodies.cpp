@@ -106,7 +106,7 @@ PatchList TwoBodies::patches_at(int body, const Aabb& box, Budget& budget, std::
   std::size_t met = 0;
   visit_box(from.bvh, from.mesh, box, [&](std::uint32_t t) {
     const std::uint32_t i = patches(body).patch_of[t];
-    if (i == kNoPatch) return true;
+    if (i == kNoIndex) return true;
     is_met[i / 64] |= std::uint64_t{1} << (i % 64);
     return ++met < most;
   }, &budget);
@@ -213,7 +213,7 @@ double TwoBodies::farthest_in_tree(int body, const Aabb& box, Vec3 normal, doubl
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const std::uint32_t t = from.bvh.order[i];
-      if (patches(body).patch_of[t] == kNoPatch || !meet(box_at(from.bvh, from.mesh, i), box)) continue;
+      if (patches(body).patch_of[t] == kNoIndex || !meet(box_at(from.bvh, from.mesh, i), box)) continue;
       budget.spend(kSideWork);
       const Corners c = corners(from.mesh, t);
       least = larger(least, farthest_in(c, box, normal, larger(least, enough)));

@@ -57,7 +57,7 @@ class TwoBodies {
   void make_patches(const Aabb& box, double reach, double flatness);
 
   // Of the patches that were made, those with a triangle whose box meets this one: of the first `most` such triangles.
-  PatchList patches_at(int body, const Aabb& box, Budget& budget, std::size_t most = kNoPatch) const;
+  PatchList patches_at(int body, const Aabb& box, Budget& budget, std::size_t most = kNoIndex) const;
 
   // Those whose box meets this one; where they are many, any kManyPatches of them or more, because the tree is asked
   // instead, but in a plane. known: of a box around this one; null: none.

@@ -6,15 +6,17 @@ import tempfile
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from satcheck.audit.body import PlacedBody, SharedMesh
+from satcheck.audit.body import Box, PlacedBody, SharedMesh
+from satcheck.audit.motion.impact import first_impact as scanned
 from satcheck.audit.motion.moving_pair import MovingPair, OpenStretches
 from satcheck.audit.motion.open_stretches import open_stretches
 from satcheck.audit.motion.sweep import sweep as swept
-from satcheck.audit.motion.track import STANDS, track_of
-from satcheck.audit.motion.track_travel import TrackTravel
+from satcheck.audit.motion.track import TrackTravel
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import request_for
 from satcheck.audit.settings import Settings
@@ -42,19 +44,61 @@ def moving(
     path_b: MotionPath | None = None,
     **settings: object,
 ) -> MovingPair:
-    tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
-    pieces = sorted({*tracks[0].times, *tracks[1].times})
-    whole = OpenStretches(tuple(pairwise(pieces)))
-    return MovingPair(pair_of(a, b, **settings), tracks[0], tracks[1], whole)
+    pair = pair_of(a, b, **settings)
+    travel = travel_of(pair, path_a, path_b)
+    whole = OpenStretches(tuple(pairwise(travel.times.tolist())))
+    return MovingPair(pair, travel, whole)
+
+
+def travel_of(pair: Pair, path_a: MotionPath | None, path_b: MotionPath | None) -> TrackTravel:
+    """None: the body is at rest."""
+    paths = ((pair.a, path_a), (pair.b, path_b))
+    motions = [Motion((body.id,), path) for body, path in paths if path is not None]
+    return TrackTravel(motions, [pair.a, pair.b])
 
 
 def sweep(pair: Pair, path_a: MotionPath | None, path_b: MotionPath | None) -> Sweep:
     """None: the body is at rest."""
-    paths = ((pair.a, path_a), (pair.b, path_b))
-    motions = [Motion((body.id,), path) for body, path in paths if path is not None]
-    travel = TrackTravel(motions, [pair.a, pair.b])
+    travel = travel_of(pair, path_a, path_b)
     (found,) = open_stretches(travel, [pair])
     return swept(pair, travel, found)
+
+
+class Boxed(NamedTuple):
+    """As much of a placed body as its travel needs."""
+
+    id: str
+    bounds: Box
+    curved: None = None
+    body: Any = SimpleNamespace(transform=None)
+
+
+def boxes_on(*moving: tuple[Box, MotionPath | None]) -> TrackTravel:
+    """Bodies "0", "1" ... with these boxes as placed, on these paths. None: the body is at rest."""
+    bodies: Any = [Boxed(str(k), bounds) for k, (bounds, _) in enumerate(moving)]
+    paths = [path for _, path in moving]
+    motions = [Motion((str(k),), path) for k, path in enumerate(paths) if path is not None]
+    return TrackTravel(motions, bodies)
+
+
+class Impact(NamedTuple):
+    """What the scan for the first impact says."""
+
+    lower: float
+    upper: float | None
+    reached: float
+    contact: float | None
+    reason: str | None
+
+    @property
+    def free(self) -> bool:
+        return self.upper is None and self.reason is None
+
+
+def first_impact(pair: MovingPair) -> Impact:
+    found = scanned(pair)
+    lower, upper = found.time_of_impact or (found.reached, None)
+    return Impact(lower, upper, found.reached, found.contact, found.reason)
 
 
 def hull_of(points: Sequence[Sequence[float]]) -> Lists:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from satcheck.audit.motion.impact import first_impact
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
-from tests.audit.motion.pairs import moving
+from tests.audit.motion.pairs import first_impact, moving
 from tests.audit.motion.slots import tee, tee_slot
 from tests.audit.shapes import box, bracket, moved, unit_box
 

@@ -13,9 +13,8 @@ import itertools
 
 import pytest
 
-from satcheck.audit.motion.impact import first_impact
 from satcheck.scene.motion import Rotation, Translation
-from tests.audit.motion.pairs import hull_of, moving
+from tests.audit.motion.pairs import first_impact, hull_of, moving
 from tests.audit.shapes import box
 
 DOWN = Translation((0.0, 0.0, -4.0))
@@ -123,7 +122,7 @@ def test_triangles_that_touch_for_a_moment(a, b, way, touch):
     sheets = [([tuple(map(float, p)) for p in corners], [(0, 1, 2)]) for corners in (a, b)]
     path = Translation(tuple(map(float, way)))
     pair = moving(sheets[0], path, sheets[1], tolerance=0.0, allow_open=True)
-    impact = first_impact(pair, (pair.tolerance,))
+    impact = first_impact(pair)
     assert impact.free
     assert impact.contact == pytest.approx(touch)
 

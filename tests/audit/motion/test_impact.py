@@ -14,10 +14,9 @@ from msgspec.structs import replace
 
 from satcheck.audit.draft import Draft
 from satcheck.audit.finding import examine
-from satcheck.audit.motion.impact import first_impact
 from satcheck.audit.motion.moving_pair import SHORTEST_STEP, overlaps
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
-from tests.audit.motion.pairs import hull_of, moving
+from tests.audit.motion.pairs import first_impact, hull_of, moving
 from tests.audit.shapes import box, bracket, moved, unit_box
 from tests.oracles.random_shapes import random_direction, random_hull, random_quaternion
 from tests.oracles.translated_pair import overlap_times

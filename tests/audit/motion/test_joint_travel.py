@@ -8,16 +8,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from satcheck.audit import Settings
+from satcheck.audit.bodies import place
+from satcheck.audit.body import PlacedBody
 from satcheck.audit.motion.joint_travel import JointTravel
-from satcheck.scene import load_scene
+from satcheck.scene import Scene, load_scene
 from satcheck.scene.robot import with_joint_path
 from tests.scene.robot.robots import joint, link, robot_of
 
 BOX = '<collision><geometry><box size="0.4 0.2 0.6"/></geometry></collision>'
-RADIUS = float(np.linalg.norm((0.2, 0.1, 0.3)))
+IDS = ["l0", "l1", "l2", "l3"]
 LIMIT = '<limit lower="-3" upper="3" effort="1" velocity="1"/>'
 STEP = 1e-4
-NOWHERE = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)  # the radii say how large the bodies are
 
 
 def chain(folder: Path, kinds: tuple[str, ...]) -> Path:
@@ -28,6 +30,10 @@ def chain(folder: Path, kinds: tuple[str, ...]) -> Path:
         parts += [link(f"l{k + 1}", BOX), joint(f"j{k}", f"l{k}", f"l{k + 1}", kind, axis + LIMIT)]
     (folder / "chain.urdf").write_text(robot_of(*parts))
     return folder / "chain.urdf"
+
+
+def bodies_of(scene: Scene) -> list[PlacedBody]:
+    return list(place(scene, Settings()).placed.values())
 
 
 @pytest.mark.parametrize(
@@ -56,12 +62,12 @@ def test_no_point_is_faster_than_its_bounds(
     )
     placed = with_joint_path(scene, [start, end])
     assert placed.joint_path is not None
-    travel = JointTravel(placed, placed.joint_path, [((0.0, 0.0, 0.0), RADIUS)] * 4)
+    travel = JointTravel(placed, placed.joint_path, bodies_of(placed))
     corners = np.array(
         [[x, y, z, 1] for x in (-0.2, 0.2) for y in (-0.1, 0.1) for z in (-0.3, 0.3)]
     )
     times = np.arange(0.3, 0.7, STEP)
-    matrices = travel.at(times).matrices.reshape(len(times), 4, 3, 4)
+    matrices = travel.at(times).placements(IDS, len(times)).reshape(-1, 4, 3, 4)
     for frame, joints in ((0, [2, 1, 0]), (1, [2, 1])):
         at = travel.at(np.array([0.5]))
         speed, acceleration = (
@@ -73,15 +79,19 @@ def test_no_point_is_faster_than_its_bounds(
         moved = np.diff(seen, axis=0) / STEP
         assert np.linalg.norm(moved, axis=1).max() <= speed
         assert np.linalg.norm(np.diff(moved, axis=0) / STEP, axis=1).max() <= acceleration + 1e-6
-        _, way = travel.ways(f"l{frame}", "l3")
-        assert way.fastest(0.5, NOWHERE) >= np.linalg.norm(moved, axis=1).max()
+        assert travel.in_piece((3, joints), 0.0, 1.0)[0] >= np.linalg.norm(moved, axis=1).max()
 
 
 def test_rounding_grows_with_the_distance_of_a_mesh_from_its_link(tmp_path: Path) -> None:
-    scene = load_scene([chain(tmp_path, ("revolute",))])
-    path = with_joint_path(scene, [{"j0": (0.0,)}, {"j0": (1.0,)}]).joint_path
-    assert path is not None
-    near, far = (JointTravel(scene, path, [((x, 0.0, 0.0), RADIUS)] * 2) for x in (0.0, 1e6))
-    assert near.reach < 100
-    assert far.reach >= 1e6
-    assert far.pad >= 1e4 * near.pad
+    pads = []
+    for x in (0.0, 1e6):
+        box = BOX.replace("<geo", f'<origin xyz="{x} 0 0"/><geo')
+        turning = joint("j0", "l0", "l1", "revolute", LIMIT)
+        (tmp_path / "far.urdf").write_text(robot_of(link("l0", BOX), link("l1", box), turning))
+        scene = load_scene([tmp_path / "far.urdf"])
+        placed = with_joint_path(scene, [{"j0": (0.0,)}, {"j0": (1.0,)}])
+        assert placed.joint_path is not None
+        travel = JointTravel(placed, placed.joint_path, bodies_of(placed))
+        pads.append(travel.pad(1))
+        assert x <= travel.reach(1) <= 4 * x + 100
+    assert pads[1] >= 1e4 * pads[0]

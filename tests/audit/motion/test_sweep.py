@@ -8,8 +8,9 @@ import pytest
 
 from satcheck.audit.motion import moving_pair, worst
 from satcheck.audit.motion.moving_pair import STEPS
+from satcheck.audit.motion.open_stretches import INTERVALS, INTERVALS_A_PIECE, open_stretches
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
-from tests.audit.motion.pairs import pair_of, sweep
+from tests.audit.motion.pairs import pair_of, sweep, travel_of
 from tests.audit.shapes import box, bracket, moved, open_box, unit_box
 
 ORIGIN = (0.0, 0.0, 0.0)
@@ -18,6 +19,11 @@ Z = (0.0, 0.0, 1.0)
 
 def swept(a, path, b, other=None, **settings):
     return sweep(pair_of(a, b, **settings), path, other)
+
+
+def steps_of_bisection(a, path, b, **settings):
+    pair = pair_of(a, b, **settings)
+    return open_stretches(travel_of(pair, path, None), [pair])[0].steps
 
 
 def test_a_hit_is_told_in_the_terms_of_the_motion():
@@ -156,7 +162,8 @@ def test_a_budget_that_ends_at_a_contact_leaves_the_gap_open(monkeypatch):
     path = Translation((0.5, 0.0, 0.0))
     slid = swept(unit_box(3, 2, 1), path, bracket(), clearance=0.5)
     assert (slid.relation, slid.contact) == ("touching", 0.0)
-    monkeypatch.setattr(moving_pair, "STEPS", slid.steps - 1)
+    bisected = steps_of_bisection(unit_box(3, 2, 1), path, bracket(), clearance=0.5)
+    monkeypatch.setattr(moving_pair, "STEPS", slid.steps - bisected - 1)
     found = swept(unit_box(3, 2, 1), path, bracket(), clearance=0.5)
     assert (found.relation, found.contact, found.worst) == ("touching", 0.0, None)
 
@@ -166,10 +173,13 @@ def test_a_million_turns_end():
     apart. If the wall turns too, a step is a part of a turn, and the budget ends first."""
     square = box((-1, -1, 0), (1, 1, 1))
     wall = box((math.sqrt(2.0) + 0.1, -5, 0), (9, 5, 1))
-    found = swept(square, Rotation(ORIGIN, Z, 3.6e8), wall)
-    assert (found.relation, found.steps) == ("separated", 1)
-    found = swept(square, Rotation(ORIGIN, Z, 3.6e8), wall, Rotation((9.0, 0.0, 0.0), Z, 1e-9))
-    assert (found.relation, found.steps) == ("indeterminate", STEPS + 1)
+    turns = Rotation(ORIGIN, Z, 3.6e8)
+    found = swept(square, turns, wall)
+    bisected = steps_of_bisection(square, turns, wall)
+    assert (found.relation, found.steps) == ("separated", bisected + 1)
+    assert bisected <= 2 * (INTERVALS + INTERVALS_A_PIECE)
+    found = swept(square, turns, wall, Rotation((9.0, 0.0, 0.0), Z, 1e-9))
+    assert (found.relation, found.steps) == ("indeterminate", bisected + STEPS + 1)
     assert found.reason.startswith("the budget of the sweep was spent")
 
 

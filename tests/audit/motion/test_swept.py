@@ -2,44 +2,33 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
 import pytest
 
+from satcheck.audit.body import corners
 from satcheck.audit.motion.track import track_of
-from satcheck.audit.motion.track_travel import SweptBoxes, TrackTravel, part_times, parts_of
-from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
+from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
+from tests.audit.motion.pairs import boxes_on
 from tests.oracles.random_shapes import random_quaternion
 
 ORIGIN = (0.0, 0.0, 0.0)
 BOUNDS = ((1.0, -0.5, 0.0), (3.0, 0.5, 1.0))
 
 
-def swept(*moving):
-    """moving: (box as placed, path) of each body; None: it stands."""
-    tracks = [None if path is None else track_of(path) for _, path in moving]
-    times = part_times([track for track in tracks if track is not None])
-    return [
-        SweptBoxes(placed, None if track is None else parts_of(track, times))
-        for (placed, _), track in zip(moving, tracks, strict=True)
-    ]
-
-
 def meet(a, b, limit):
-    one, other = swept(a, b)
-    assert one.may_meet(other, limit) == other.may_meet(one, limit)
-    return one.may_meet(other, limit)
+    travel = boxes_on(a, b)
+    assert travel.may_meet("0", "1", limit) == travel.may_meet("1", "0", limit)
+    return travel.may_meet("0", "1", limit)
 
 
 def samples(path, start=0.0, end=1.0, count=2000):
     track = track_of(path)
-    corners = list(itertools.product(*zip(*BOUNDS, strict=True)))
     found = []
     for k in range(count + 1):
         pose = np.reshape(track.pose_at(start + (end - start) * k / count), (4, 4))
-        found += [pose[:3, :3] @ corner + pose[:3, 3] for corner in corners]
+        found += [pose[:3, :3] @ corner + pose[:3, 3] for corner in corners(BOUNDS)]
     return np.array(found)
 
 
@@ -63,8 +52,7 @@ def path_of(rng):
     ],
 )
 def test_the_body_is_always_inside(path):
-    (boxes,) = swept((BOUNDS, path))
-    low, high = boxes.low.min(axis=0), boxes.high.max(axis=0)
+    low, high = boxes_on((BOUNDS, path)).bounds("0")
     points = samples(path)
     assert (points >= low).all()
     assert (points <= high).all()
@@ -75,19 +63,19 @@ def test_a_motion_beyond_float64_may_meet_everything():
     """The velocity of the first leg is infinite, so that its centre is not a number."""
     back = (Waypoint(5e-324, (5.0, 0.0, 0.0)), Waypoint(1.0, ORIGIN))
     path = PosePath((Waypoint(0.0, ORIGIN), *back))
-    assert swept((BOUNDS, path))[0].whole == ((-math.inf,) * 3, (math.inf,) * 3)
+    assert boxes_on((BOUNDS, path)).bounds("0") == ((-math.inf,) * 3, (math.inf,) * 3)
     assert meet((BOUNDS, path), (((4.0, 0.0, 0.0), (4.5, 1.0, 1.0)), None), 0.0)
 
 
 def test_a_translation_is_boxed_tightly():
-    low, high = swept((BOUNDS, Translation((3.0, -4.0, 0.0))))[0].whole
+    low, high = boxes_on((BOUNDS, Translation((3.0, -4.0, 0.0)))).bounds("0")
     assert low == pytest.approx((1.0, -4.5, 0.0), abs=1e-12)
     assert high == pytest.approx((6.0, 0.5, 1.0), abs=1e-12)
 
 
 def test_where_it_was_placed_counts_too():
     far = PosePath((Waypoint(0.0, (50.0, 0.0, 0.0)), Waypoint(1.0, (60.0, 0.0, 0.0))))
-    low, high = TrackTravel([Motion(("a",), far)], []).bounds("a", BOUNDS)
+    low, high = boxes_on((BOUNDS, far)).bounds("0")
     assert low == pytest.approx(BOUNDS[0], abs=1e-11)
     assert high == pytest.approx((63.0, *BOUNDS[1][1:]), abs=1e-11)
     near_the_place = ((0.0, 0.0, 0.0), (2.0, 1.0, 1.0))
@@ -98,8 +86,8 @@ def test_where_it_was_placed_counts_too():
 def test_over_a_part_the_body_is_inside(seed):
     rng = np.random.default_rng(seed)
     path = path_of(rng)
-    (boxes,) = swept((BOUNDS, path))
-    times = part_times([track_of(path)])
+    travel = boxes_on((BOUNDS, path))
+    boxes, times = travel.swept(0), travel.part_times
     for k in map(int, rng.integers(len(times) - 1, size=8)):
         points = samples(path, times[k], times[k + 1], count=100)
         assert (points >= boxes.low[k]).all()
@@ -128,7 +116,8 @@ def test_beside_the_path_boxes_are_apart():
 
 
 def test_whole_turns_are_boxed_by_their_circle():
-    low, high = swept((BOUNDS, Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 720.0)))[0].whole
+    turn = Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 720.0)
+    low, high = boxes_on((BOUNDS, turn)).bounds("0")
     circle = math.hypot(3.0, 0.5)
     assert (
         max(abs(c) for c in (*low[:2], *high[:2])) <= circle * (1 + (math.pi / 12) ** 2 / 8) + 1e-11

@@ -6,10 +6,9 @@ import math
 
 import pytest
 
-from satcheck.audit.motion.impact import first_impact
-from satcheck.audit.motion.swept_hull import safe_slide
+from satcheck.audit.motion.contact import safe_slide
 from satcheck.scene.motion import Rotation, Translation
-from tests.audit.motion.pairs import moving
+from tests.audit.motion.pairs import first_impact, moving
 from tests.audit.motion.slots import channel, tee, tee_slot
 from tests.audit.shapes import box
 

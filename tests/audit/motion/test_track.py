@@ -7,9 +7,10 @@ from fractions import Fraction
 
 import pytest
 
-from satcheck.audit.motion.track import STANDS, between, track_of, unit
+from satcheck.audit.motion.track import between, track_of, unit
 from satcheck.core.transform import about, compose, cos_sin, placed, quaternion_matrix
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
+from tests.audit.motion.pairs import boxes_on
 
 UNIT = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
@@ -28,11 +29,6 @@ SCREW = PosePath(
 def at(path, t, point):
     pose = track_of(path).pose_at(t)
     return compose(pose, placed(IDENTITY[:3] + IDENTITY[4:7] + IDENTITY[8:11], point))[3:12:4]
-
-
-def test_what_stands_stands() -> None:
-    assert STANDS.pose_at(0.7) == IDENTITY
-    assert not STANDS.moves
 
 
 def test_a_translation() -> None:
@@ -70,19 +66,20 @@ def test_the_pad_holds_what_rounding_does() -> None:
         off = max(abs(Fraction(c) - e) for c, e in zip(point, exact, strict=True))
         # The angle that was asked for is itself rounded: by half a unit in the last place.
         asked = math.radians(math.ulp(path.degrees))
-        assert off <= track_of(path).pad(UNIT) + asked
+        assert off <= boxes_on((UNIT, path), (UNIT, None)).pad(0) + asked
 
 
 @pytest.mark.parametrize(
     "path", [Translation((3.0, 4.0, 0.0)), Rotation((9.0, 0.0, 0.0), (0.0, 1.0, 1.0), 700.0), SCREW]
 )
 def test_no_point_is_faster_than_the_bound(path) -> None:
-    track = track_of(path)
+    travel = boxes_on((UNIT, path), (UNIT, None))
+    pad = travel.pad(0)
     for k in range(64):
         start, end = k / 64, (k + 1) / 64
         for corner in ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 1.0, 1.0)):
             step = math.dist(at(path, start, corner), at(path, end, corner))
-            assert step <= track.piece_at(start).fastest(UNIT) / 64 + 2 * track.pad(UNIT)
+            assert step <= travel.in_piece((0, [0]), start, end)[0] / 64 + 2 * pad
 
 
 def test_between_takes_the_shortest_arc() -> None:

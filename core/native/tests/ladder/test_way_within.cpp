@@ -36,7 +36,7 @@ Mesh corner(int walls, double slip) {
 
 WayWithin way_out(PlacedGeometry& a, PlacedGeometry& b, double band) {
   const MeshRelation found = mesh_relation(*a.surface(), *b.surface());
-  CHECK(found.relation == Relation::penetrating && found.triangle_b != kNoTriangle);
+  CHECK(found.relation == Relation::penetrating && found.triangle_b != kNoIndex);
   Budget budget = Budget::that_stops(kMostSteps);
   return find_way_within(a, b, band, ContactPair{found.triangle_a, found.triangle_b}, budget);
 }

@@ -290,7 +290,7 @@ void a_shape_and_a_surface_keep_theirs() {
     const MotionAnswer gap = ask(shape, two.a, b, two.b, MotionQuestion::gap(window), {}, kNoLimit);
     CHECK(time.value > 0);
     const MotionAnswer mirrored = ask(b, two.b, shape, two.a, MotionQuestion::time(level, 1), {}, kNoLimit);
-    CHECK(mirrored.value == time.value && mirrored.triangle_a == time.triangle_b && mirrored.triangle_b == kNoTriangle);
+    CHECK(mirrored.value == time.value && mirrored.triangle_a == time.triangle_b && mirrored.triangle_b == kNoIndex);
     for (int k = 0; k <= 20; ++k) CHECK(distance(a, two.a, b, two.b, time.value * k / 20) >= level - kRounding);
     for (int k = -10; k <= 10; ++k) CHECK(distance(a, two.a, b, two.b, window * k / 10) >= gap.value - kRounding);
     const MotionAnswer instant = ask(shape, two.a, b, two.b, MotionQuestion::gap(0), {}, kNoLimit);

@@ -1,2 +1,0 @@
-from satcheck._native import core as core
-from satcheck._native import readers as readers
