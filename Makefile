@@ -16,7 +16,7 @@ endif
 ROOMS := api plugins cli audit verify report scene decompose core
 LEVELS := $(foreach room,$(ROOMS),$(room)/* $(room)/*/* $(room)/*/*/* $(room)/*/*/*/*)
 SOURCES := pyproject.toml CMakeLists.txt \
-	$(wildcard $(foreach kind,.py .pyi .json .html .css .js .cpp .hpp /CMakeLists.txt,$(addsuffix $(kind),$(LEVELS))))
+	$(wildcard $(foreach kind,.py .json .html .css .js .cpp .hpp /CMakeLists.txt,$(addsuffix $(kind),$(LEVELS))))
 CXX_TESTS := $(wildcard core/native/tests/*/*.cpp core/native/tests/*/*.hpp tests/one_definition/*)
 
 .PHONY: demo test golden install clean
