@@ -26,7 +26,7 @@ constexpr double kShort = 1 - 1e-6;
 // sides. Where that does not free the bodies, they move by half of what they lie in each other, and by kLittle more.
 constexpr double kShare = 0.57, kLittle = 0.01;
 // Faces with normals as opposite as that may lie in each other.
-constexpr double kOpposite = -0.999;
+constexpr double kFacing = -0.999;
 // A vertex goes as far along its way as it may once the coordinates are rounded: by the first of these shares.
 constexpr double kShortened[] = {1, 0.875, 0.75, 0.5};
 
@@ -100,7 +100,7 @@ std::pair<Shares, Shares> depths_of_faces(const Surface& a, const Surface& b, do
     visit_box(b.bvh, b.mesh, bounds_of(of_a), [&](std::uint32_t u) {
       const Corners of_b = corners(b.mesh, u);
       const Vec3 facing = unit_normal(of_b);
-      if (!(dot(normal, facing) < kOpposite)) return true;
+      if (!(dot(normal, facing) < kFacing)) return true;
       if (is_beside(of_a, normal, of_b, most) || is_beside(of_b, facing, of_a, most)) return true;
       add_depths(shares.first[t], of_a, of_b, facing, most);
       add_depths(shares.second[u], of_b, of_a, normal, most);

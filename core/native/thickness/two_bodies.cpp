@@ -24,7 +24,7 @@ constexpr std::size_t kManyTriangles = 2 * kManyPatches;
 constexpr double kDistanceRoundoffs = 256;
 
 // Faces that lie in each other by less than this many roundings, with normals as opposite as that.
-constexpr double kThinRoundings = 16, kFacing = -0.999;
+constexpr double kThin = 16, kFacing = -0.999;
 
 Vec3 farthest_corner(const Aabb& box, Vec3 along) {
   return {along.x > 0 ? box.max.x : box.min.x, along.y > 0 ? box.max.y : box.min.y, along.z > 0 ? box.max.z : box.min.z};
@@ -173,7 +173,7 @@ bool TwoBodies::is_clear(int body, Vec3 p, double distance, Budget& budget) cons
 std::optional<Vec3> TwoBodies::between(std::uint32_t of_a, std::uint32_t of_b, Vec3 p) const {
   const Patch &a = patch(0, of_a), &b = patch(1, of_b);
   const double in_a = dot(a.normal, patches(0).origin(a) - p), in_b = dot(b.normal, patches(1).origin(b) - p);
-  const bool is_thin = std::fabs(in_a) < kThinRoundings * rounding_ && std::fabs(in_b) < kThinRoundings * rounding_;
+  const bool is_thin = std::fabs(in_a) < kThin * rounding_ && std::fabs(in_b) < kThin * rounding_;
   if (!is_thin || !(dot(a.normal, b.normal) < kFacing)) return std::nullopt;
   return p + a.normal * ((in_a - in_b) / 2);
 }
