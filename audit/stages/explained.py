@@ -3,11 +3,11 @@
 The surface of each body X may be off by e_X: by half of the touch band, or by its surface tolerance
 where that is more. An overlap is real where a point lies deeper than e_A in A and deeper than e_B
 in B. The core looks for such a point, or proves that there is none: at once if the bodies are free
-of each other when each is made smaller by what it may be off, else by a search. Nothing is
-explained where one body passes through the other: enters it in one place and leaves it in another.
-Where no vertex has to move farther than e_X until the bodies are free, neither does. Slivers
-between faces that fit may look like it: in the touch band neither does where no vertex has to move
-farther than 2 e_X.
+of each other when each is made smaller by what it may be off, or by the planes of their faces, else
+by a search. Nothing is explained where one body passes through the other: enters it in one place
+and leaves it in another. Where no vertex has to move farther than e_X until the bodies are free,
+neither does; nor where their faces fit and both bodies are thicker than the band there. Slivers
+between such faces may look like it.
 
 A surface tolerance also explains nothing where all of a body is as thin as that, and where a thin
 part of a body, as a fin or a wire, reaches deep into the other one: no point of it is deep in its
@@ -16,7 +16,7 @@ own body. The touch band has no such exceptions: nothing thicker than the tolera
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
 from satcheck.audit.draft import Band, Draft
@@ -36,8 +36,11 @@ MOST_CROSSINGS = 100_000
 MOST_REACH = 4.0
 # Steps of a search that decides most overlaps that are well within the tolerance or well beyond it.
 QUICK_WORK = 1_000_000
-# Steps of the scene, each about a nanosecond, of a triangle that is made smaller.
-STEPS_OF_SHRUNK_TRIANGLE = 100
+# Steps of the proof by the planes of faces, which decides bodies that fit at once, if at all.
+FIT_WORK, FIT_WORK_PER_TRIANGLE = 100_000_000, 20_000
+# Steps of the scene, each about a nanosecond: of a step of that proof, and of a triangle that is
+# made smaller.
+STEPS_OF_FIT, STEPS_OF_SHRUNK_TRIANGLE = 4, 100
 
 
 WITHIN, DEEPER = Band("within"), Band("deeper")
@@ -90,13 +93,17 @@ def _decided_by_band(pair: Pair) -> Band:
     quick = _search(pair, pair.a, pair.b, (0.0, 0.0), pair.tolerance, prove=False, work=QUICK_WORK)
     if quick.lower > pair.tolerance:
         return DEEPER
-    thicker = None if quick.upper <= pair.tolerance else _holds_thicker_ball(pair)
-    if thicker:
+    if quick.upper <= pair.tolerance and passes(pair) is False:
+        return WITHIN
+    fit = _fit_of_convex(pair) or _fit(pair)
+    if fit == "deeper":
         return DEEPER
-    through = _passes_beyond_band(pair)
+    if fit == "fit":
+        return WITHIN
+    through = passes(pair)
     if through:
         return THROUGH
-    if thicker is None and quick.upper > pair.tolerance:
+    if fit is None:
         interval = _search(pair, pair.a, pair.b, (0.0, 0.0), pair.tolerance, prove=False)
         if interval.lower > pair.tolerance:
             return DEEPER
@@ -105,13 +112,25 @@ def _decided_by_band(pair: Pair) -> Band:
     return THROUGH_OPEN if through is None else WITHIN
 
 
-def _holds_thicker_ball(pair: Pair) -> bool | None:
-    """Return whether two convex bodies hold a ball thicker than the tolerance; None: not known."""
+def _fit_of_convex(pair: Pair) -> Literal["deeper", "thin"] | None:
+    """Return how two convex bodies fit at the tolerance; None: not decided."""
     if not pair.both_convex or pair.on_half_space or pair.settings.across >= 0:
         return None
     from satcheck.audit.stages.convex_ball import holds_thicker_ball
 
-    return holds_thicker_ball(pair.a.hull(), pair.b.hull(), pair.tolerance)
+    thicker = holds_thicker_ball(pair.a.hull(), pair.b.hull(), pair.tolerance)
+    return None if thicker is None else "deeper" if thicker else "thin"
+
+
+def _fit(pair: Pair) -> Literal["deeper", "thin", "fit"] | None:
+    """Return how the faces of the bodies fit at the tolerance; None: they do not decide it."""
+    if pair.settings.across >= 0:  # the faces across the axis of prisms do not count
+        return None
+    a, b = pair.a.surface(), pair.b.surface()
+    most = min(pair.thickness_work, FIT_WORK + FIT_WORK_PER_TRIANGLE * pair.triangles)
+    fit, steps = core.fit_by_faces(a, b, pair.tolerance, most)
+    pair.explain_steps += STEPS_OF_FIT * steps
+    return fit
 
 
 def _free_when_shrunk(pair: Pair, off: tuple[float, float]) -> bool:
@@ -122,15 +141,6 @@ def _free_when_shrunk(pair: Pair, off: tuple[float, float]) -> bool:
 def passes(pair: Pair) -> bool | None:
     """Return whether one body passes through the other; None: not decided."""
     return core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
-
-
-def _passes_beyond_band(pair: Pair) -> bool | None:
-    """Return whether one body passes through the other, except by slivers between faces that fit;
-    None: not decided."""
-    through = passes(pair)
-    if through is not False and _free_when_shrunk(pair, (pair.tolerance, pair.tolerance)):
-        return False
-    return through
 
 
 def _decided_by_surfaces(pair: Pair) -> Band:

@@ -13,6 +13,7 @@
 #include "bindings/interrupts.hpp"
 #include "bindings/values.hpp"
 #include "thickness/component_search.hpp"
+#include "thickness/face_fit.hpp"
 #include "thickness/shrunk.hpp"
 #include "thickness/thickness_proof.hpp"
 #include "thickness/thickness_search.hpp"
@@ -22,6 +23,21 @@ using namespace nb::literals;
 
 namespace satcheck {
 namespace {
+
+std::optional<const char*> name_of(FaceFit fit) {
+  switch (fit) {
+    case FaceFit::deeper: return "deeper";
+    case FaceFit::thin: return "thin";
+    case FaceFit::fit: return "fit";
+    default: return std::nullopt;
+  }
+}
+
+std::pair<std::optional<const char*>, std::uint64_t> counted_fit(const Surface& a, const Surface& b, double length, std::uint64_t work) {
+  Budget budget(work);
+  const FaceFit fit = fit_by_faces(a, b, length, budget);
+  return {name_of(fit), budget.spent()};
+}
 
 ThicknessInterval checked_thickness(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
                                  double less_b, std::optional<double> limit, int across, bool prove,
@@ -77,6 +93,13 @@ stop: "narrow", "decided" (the interval lies on one side of the limit) or "work 
         R"(The thickness of each component of the overlap of two solids, without a search. upper: that of its convex hull;
 centre: of the largest ball in that; lower: how thick the overlap is around it, 0 where it does not lie in both, or may
 belong to another component.)");
+  m.def("fit_by_faces", &counted_fit, "a"_a, "b"_a, "length"_a, "work"_a, nb::call_guard<nb::gil_scoped_release>(),
+        nb::sig("def fit_by_faces(a: Surface, b: Surface, length: float, work: int) -> "
+                "tuple[typing.Literal['deeper', 'thin', 'fit'] | None, int]"),
+        R"(Whether a ball thicker than `length`, > 0, lies in both solids, by the planes of faces that lie in each other, to the last
+digits of float64. "deeper": one does. "thin": none does. "fit": none does, and wherever they meet both are thicker
+than that, so that neither is a sheet or a wire that passes through the other. None: `work` steps, each about a
+nanosecond, do not decide that. The number is of the steps that it took. Swapping a and b changes nothing. ValueError for a surface that is not a solid.)");
   const auto free = [](const Surface& a, const Surface& b, double most_a, double most_b) {
     return free_when_shrunk(a, b, most_a, most_b, interrupting());
   };

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "base/rounding.hpp"
 #include "exact/double_double.hpp"
 #include "exact/predicates.hpp"
 
@@ -24,10 +23,6 @@ Vec3 nearest_on_segment(Vec3 x, Vec3 p, Vec3 q) {
 // length. In twice the precision the error is 1e-16 down to angles of 1e-8. At an angle of 1e-12 the error is 1e-8, but
 // moving that far along the edges changes their distance by only 1e-20 of the length.
 constexpr double kNearlyParallelSquared = 1e-4;
-
-// A vector divided by its length is longer than 1 by a few roundoffs, at most. A height in twice the precision is off by a
-// few roundoffs, squared, of the size of its terms. Both rounded up.
-constexpr double kUnitError = 16 * kUnitRoundoff, kHeightError = 64 * kUnitRoundoff * kUnitRoundoff;
 
 struct WideVec {
   DoubleDouble x, y, z;
@@ -90,21 +85,6 @@ Vec3 normal_of(const Corners& t) {
 }  // namespace
 
 Vec3 nearest_on_triangle(Vec3 p, const Corners& t) { return nearest_on_triangle(p, t, normal_of(t)); }
-
-bool is_farther(Vec3 p, const Corners& t, double length) {
-  const Vec3 normal = normal_of(t);
-  if (!(norm(normal) > 0)) return false;
-  const Vec3 unit = normal * (1 / norm(normal));
-  double low = INFINITY, high = -INFINITY, size = 0;
-  for (const Vec3 corner : t) {
-    const double height = static_cast<double>(dot(WideVec{{unit.x}, {unit.y}, {unit.z}}, wide_difference(corner, p)));
-    low = smaller(low, height);
-    high = larger(high, height);
-    size = larger(size, max_abs(corner - p));
-  }
-  const double least = length * (1 + kUnitError) + kHeightError * size;
-  return low > least || high < -least;
-}
 
 NearestPoints triangle_distance(const Corners& a, const Corners& b, Budget* budget) {
   if (meet(bounds_of(a), bounds_of(b))) {

@@ -8,9 +8,6 @@ namespace satcheck {
 // The point of a closed triangle nearest to p. The triangle may be degenerate.
 Vec3 nearest_on_triangle(Vec3 p, const Corners& t);
 
-// Whether the plane of a triangle shows, in twice the precision, that p is farther from it than that length >= 0.
-bool is_farther(Vec3 p, const Corners& t, double length);
-
 struct NearestPoints {
   Vec3 a, b;
   double distance_squared;

@@ -313,8 +313,6 @@ class CellBound {
     nearest_ = {nearest(0, p), nearest(1, p)};
     depth_ = std::fmin(std::fmin(nearest_[0].depth, nearest_[1].depth), open_.bound);
     outside_ = depth_ > best_ ? consider_(p) : -1;
-    const bool both = std::fmax(nearest_[0].depth, nearest_[1].depth) < INFINITY;
-    if (const auto mid = both ? bodies_.between(nearest_[0].patch, nearest_[1].patch, p) : std::nullopt) consider_(*mid);
     bool added = false;
     for (int body = 0; body < 2; ++body) {
       const Nearest& here = nearest_[static_cast<std::size_t>(body)];

@@ -4,7 +4,6 @@
 // Each vertex moves into its body, and each point of a surface no farther than the farthest vertex. The winding number of a
 // point changes only where the surface passes over it: a point that lies deeper than that is still inside. So no point
 // is deeper than that in both bodies, and no point of one surface is deeper in the other body than the sum of both.
-// How far the vertices move is tried in two ways: all sides alike, and each by as much as faces lie in each other there.
 #pragma once
 
 #include "mesh/surface.hpp"

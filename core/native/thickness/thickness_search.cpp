@@ -29,9 +29,8 @@ constexpr double kNoise = 1024;
 // A corner of a cell may be off by this share of the scale, and by this share of what its bound is too large by.
 constexpr double kLeastError = 2e-13, kShareOfError = 1e-5;
 
-// Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow, and of the
-// depth that the limit asks for.
-constexpr double kFlatness = 1e-7, kFlatnessOfLimit = 1e-3;
+// Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow.
+constexpr double kFlatness = 1e-7;
 
 // So many cells, those with the largest bounds, are divided at a time at most, on all cores. The number does not depend
 // on the cores, so neither does the answer. With more, a deeper point that one of them has comes too late for more of the
@@ -70,9 +69,8 @@ class Search {
   // A cell whose bound is no larger does not have to be divided.
   double enough() const {
     const bool flush = bodies_.less(0) == 0 && bodies_.less(1) == 0;  // then 0 is where surfaces meet
-    const double narrow = best_ > 0 ? best_ / (1 - goal_.width) : best_;
-    const double asked = goal_.limit.value_or(0) / 2;
-    return std::fmax(narrow, asked > 0 ? asked : flush ? kNoise * bodies_.rounding() : 0.0);
+    const double narrow = std::fmax(best_ > 0 ? best_ / (1 - goal_.width) : best_, flush ? kNoise * bodies_.rounding() : 0.0);
+    return goal_.limit ? std::fmax(narrow, *goal_.limit / 2) : narrow;
   }
 
   // Whether the interval is good enough, or the work is spent, where no open cell has a larger bound.
@@ -111,19 +109,13 @@ class Search {
     }
     root.cell = make_cell(axes_, low, high, goal_.across, bodies_.scale());
     const double reach = root.bound + std::fmax(bodies_.less(0), bodies_.less(1)) + 2 * bodies_.rounding();
-    bodies_.make_patches(root.cell.box(), reach, flatness(half));
+    bodies_.make_patches(root.cell.box(), reach, kFlatness * half);
     box_ = box;
     if (record_) root.node = record_->add_root();
     Share share{{}, {}, best_};
     share.cells.push_back(std::make_unique<OpenCell>(std::move(root)));
     bound(share, enough());
     add(share);
-  }
-
-  // half: the largest radius that the boxes allow.
-  double flatness(double half) const {
-    const double asked = goal_.limit ? *goal_.limit / 2 + std::fmax(bodies_.less(0), bodies_.less(1)) : 0;
-    return asked > 0 ? std::fmin(kFlatness * half, kFlatnessOfLimit * asked) : kFlatness * half;
   }
 
   // A cell that is divided, its parts, and what is found in them: the deepest point inside both bodies, if it is deeper
@@ -200,30 +192,14 @@ class Search {
       if (!bodies_.is_inside(body, p, share.budget)) return body;
     }
     const double in_a = bodies_.clearance(0, p, share.budget), in_b = bodies_.clearance(1, p, share.budget);
-    double depth = std::fmin(in_a - bodies_.less(0), in_b - bodies_.less(1)) - bodies_.rounding();
-    double radius = std::fmin(in_a, in_b);
-    // A distance is off by one rounding, and two are taken from the depth. Where that hides whether it is beyond the limit:
-    const double beyond = just_beyond();
-    if (beyond > std::fmax(depth, share.depth) && beyond < depth + 3 * bodies_.rounding()) {
-      const double of_a = std::nextafter(beyond + bodies_.less(0), INFINITY);
-      const double of_b = std::nextafter(beyond + bodies_.less(1), INFINITY);
-      if (bodies_.is_clear(0, p, of_a, share.budget) && bodies_.is_clear(1, p, of_b, share.budget)) {
-        depth = beyond;
-        radius = std::fmin(of_a, of_b);
-      }
-    }
+    const double depth = std::fmin(in_a - bodies_.less(0), in_b - bodies_.less(1)) - bodies_.rounding();
     if (depth > share.depth) {
       share.depth = depth;
       share.found = true;
       share.centre = world;
-      share.radius = radius;
+      share.radius = std::fmin(in_a, in_b);
     }
     return -1;
-  }
-
-  // The least depth beyond the limit; less than any depth: there is none.
-  double just_beyond() const {
-    return goal_.limit && !bodies_.in_plane() ? std::nextafter(*goal_.limit / 2, INFINITY) : -INFINITY;
   }
 
   void divide(Share& share, double enough) {

@@ -23,9 +23,6 @@ constexpr std::size_t kManyTriangles = 2 * kManyPatches;
 // coordinate; a difference and a root add 4. Rounded up.
 constexpr double kDistanceRoundoffs = 256;
 
-// Faces that lie in each other by less than this many roundings, with normals as opposite as that.
-constexpr double kThin = 16, kFacing = -0.999;
-
 Vec3 farthest_corner(const Aabb& box, Vec3 along) {
   return {along.x > 0 ? box.max.x : box.min.x, along.y > 0 ? box.max.y : box.min.y, along.z > 0 ? box.max.z : box.min.z};
 }
@@ -156,26 +153,6 @@ double TwoBodies::clearance(int body, Vec3 p, Budget& budget) const {
     if (counts(body, t)) least = smaller(least, norm(nearest_on_triangle(p, corners(mesh, t)) - p));
   }
   return least - rounding_;
-}
-
-bool TwoBodies::is_clear(int body, Vec3 p, double distance, Budget& budget) const {
-  const Surface& of = surface(body);
-  bool clear = true;
-  visit_box(of.bvh, of.mesh, Aabb{p, p}.widened(distance + 2 * rounding_), [&](std::uint32_t t) {
-    const Corners c = corners(of.mesh, t);
-    budget.spend(kDistanceWork);
-    clear = norm(nearest_on_triangle(p, c) - p) > distance + rounding_ || is_farther(p, c, distance);
-    return clear;
-  }, &budget);
-  return clear;
-}
-
-std::optional<Vec3> TwoBodies::between(std::uint32_t of_a, std::uint32_t of_b, Vec3 p) const {
-  const Patch &a = patch(0, of_a), &b = patch(1, of_b);
-  const double in_a = dot(a.normal, patches(0).origin(a) - p), in_b = dot(b.normal, patches(1).origin(b) - p);
-  const bool is_thin = std::fabs(in_a) < kThin * rounding_ && std::fabs(in_b) < kThin * rounding_;
-  if (!is_thin || !(dot(a.normal, b.normal) < kFacing)) return std::nullopt;
-  return p + a.normal * ((in_a - in_b) / 2);
 }
 
 double TwoBodies::farthest(int body, const Aabb& box, Vec3 normal, const PatchList& near, double least, double enough,

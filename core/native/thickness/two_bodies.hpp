@@ -74,14 +74,6 @@ class TwoBodies {
   // The distance from p to the nearest triangle of the body, from below.
   double clearance(int body, Vec3 p, Budget& budget) const;
 
-  // Whether no triangle of the body is within that distance from p. Where the planes of the triangles show it, to the last
-  // digits.
-  bool is_clear(int body, Vec3 p, double distance, Budget& budget) const;
-
-  // The point half way between two patches, one of either body, next to p: between faces that lie in each other by little
-  // more than rounding p itself may be in front of either. Nothing where they do not, or not next to p.
-  std::optional<Vec3> between(std::uint32_t of_a, std::uint32_t of_b, Vec3 p) const;
-
   // The largest normal . x of the body's points in the box, or `least`: whichever is larger, rounding not included.
   // Anything above `enough` where it is larger than that. near: the patches of the body that meet the box, and others.
   double farthest(int body, const Aabb& box, Vec3 normal, const PatchList& near, double least, double enough,

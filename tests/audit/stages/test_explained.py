@@ -44,7 +44,8 @@ def test_the_band_ends_at_the_thickness(tmp_path: Path, tolerance: float, relati
 def test_a_thickness_away_from_the_band_needs_no_proof_to_the_last_digit(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(explained, "_holds_thicker_ball", None)
+    monkeypatch.setattr(explained, "_fit_of_convex", None)
+    monkeypatch.setattr(explained, "_fit", None)
     found = only(tmp_path, unit_box(), wedge(), tolerance=1.02 * WEDGE_THICKNESS, depth=False)
     assert (found.relation, found.reason) == ("touching", None)
 
