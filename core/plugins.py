@@ -66,7 +66,7 @@ def versions() -> tuple[str, ...]:
     packages = _packages()
     about = _stated(packages["satcheck"], "METADATA") if "satcheck" in packages else ""
     needs = re.findall(r"^Requires-Dist: *([\w.-]+)", about, re.MULTILINE)
-    found = {packages[name].name for name in map(_spelt, needs) if name in packages}
+    found = {_called(packages[name]) for name in map(_spelt, needs) if name in packages}
     if any("[satcheck." in _stated(each, "entry_points.txt") for each in packages.values()):
         from importlib.metadata import entry_points
 
@@ -79,15 +79,23 @@ def versions() -> tuple[str, ...]:
 
 
 def _packages() -> dict[str, Path]:
-    """Return the folders, called by name and version, that state what is installed. Each process of
-    a batch asks for them, and importlib.metadata takes a third of its start."""
+    """Return the folders that state what is installed, by the names of the packages. Each process
+    of a batch asks for them, and importlib.metadata takes a third of its start."""
     found: dict[str, Path] = {}
     for folder in sys.path:
         with suppress(OSError):
             for name in os.listdir(folder or os.curdir):  # noqa: PTH208  Path takes longer
                 if name.endswith((".dist-info", ".egg-info")):
-                    found.setdefault(_spelt(name.partition("-")[0]), Path(folder, name))
+                    found.setdefault(_spelt(Path(name).stem.partition("-")[0]), Path(folder, name))
     return found
+
+
+def _called(folder: Path) -> str:
+    """Return the name and the version; the folder beside a working tree is called by the name."""
+    if "-" in folder.stem:
+        return folder.stem
+    version = re.search(r"^Version: *(\S+)", _stated(folder, "PKG-INFO"), re.MULTILINE)
+    return f"{folder.stem}-{version[1] if version else ''}"
 
 
 def _spelt(name: str) -> str:

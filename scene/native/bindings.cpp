@@ -112,8 +112,8 @@ Rows rows_of(const nb::bytes& data, const std::string& code, std::size_t columns
   return {{data.c_str(), data.size()}, code.empty() ? ' ' : code[0], columns, stride};
 }
 
-std::optional<nb::bytes> unpack_numbers(const nb::bytes& data, const std::string& code, std::size_t columns, std::size_t stride,
-                          double largest) {
+std::optional<nb::bytes> unpack_numbers(const nb::bytes& data, const std::string& code, std::size_t columns,
+                                        std::size_t stride, double largest) {
   const auto numbers = as_numbers(rows_of(data, code, columns, stride), largest);
   return numbers ? std::optional(to_bytes(*numbers)) : std::nullopt;
 }

@@ -14,7 +14,7 @@ from satcheck.core import plugins
 
 def test_the_versions_are_those_that_the_packages_state() -> None:
     plugins.versions.cache_clear()
-    stated = [text.removesuffix(".dist-info") for text in plugins.versions() if " " not in text]
+    stated = [text for text in plugins.versions() if " " not in text]
     found = dict(text.split("-", 1) for text in stated)
     assert {name: metadata.version(name) for name in found} == found
     assert {"msgspec", "numpy", "click"} <= found.keys()
@@ -35,7 +35,21 @@ def test_the_first_package_on_the_path_counts(
     plugins.versions.cache_clear()
     found = plugins.versions()
     plugins.versions.cache_clear()
-    assert found == ("Some_need-1.0.dist-info",)
+    assert found == ("Some_need-1.0",)
+
+
+def test_a_working_tree_states_its_version_in_a_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for folder in ("satcheck-9.dist-info", "need.egg-info"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "satcheck-9.dist-info" / "METADATA").write_text("Requires-Dist: need\n")
+    (tmp_path / "need.egg-info" / "PKG-INFO").write_text("Name: need\nVersion: 3.1\n")
+    monkeypatch.setattr(sys, "path", [str(tmp_path)])
+    plugins.versions.cache_clear()
+    found = plugins.versions()
+    plugins.versions.cache_clear()
+    assert found == ("need-3.1",)
 
 
 def test_the_versions_import_no_library() -> None:

@@ -40,8 +40,8 @@ std::pair<std::optional<const char*>, std::uint64_t> counted_fit(const Surface& 
 }
 
 ThicknessInterval checked_thickness(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
-                                 double less_b, std::optional<double> limit, int across, bool prove,
-                                 const OverlapComponent* within, unsigned threads, Progress progress) {
+                                    double less_b, std::optional<double> limit, int across, bool prove,
+                                    const OverlapComponent* within, unsigned threads, Progress progress) {
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
   if (!(less_a >= 0 && std::isfinite(less_a))) throw std::invalid_argument("less_a must be a finite length >= 0");
   if (!(less_b >= 0 && std::isfinite(less_b))) throw std::invalid_argument("less_b must be a finite length >= 0");
