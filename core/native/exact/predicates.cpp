@@ -285,13 +285,32 @@ bool collinear(Vec3 a, Vec3 b, Vec3 c, Budget* budget) {
          orientation_2d(a, b, c, 2, budget) == 0;
 }
 
+namespace {
+
+// The normal of a triangle in float64.
+struct PlainNormal {
+  PlainNormal(Vec3 a, Vec3 b, Vec3 c) {
+    const Vec3 u = b - a, v = c - a;
+    value = cross(u, v);
+    const double products = std::fabs(u.y * v.z) + std::fabs(u.z * v.y) + std::fabs(u.z * v.x) +
+                            std::fabs(u.x * v.z) + std::fabs(u.x * v.y) + std::fabs(u.y * v.x);
+    error = kOrientation2dBound * products + kUnderflow;
+  }
+
+  Vec3 value;
+  double error;  // of each component, at most
+};
+
+}  // namespace
+
+int projection_axis(Vec3 a, Vec3 b, Vec3 c, Budget* budget) {
+  const PlainNormal normal(a, b, c);
+  return projection_axis(normal.error < max_abs(normal.value) ? normal.value : rounded_normal(a, b, c, budget));
+}
+
 Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c, Budget* budget) {
-  const Vec3 u = b - a, v = c - a;
-  const Vec3 normal = cross(u, v);
-  // Each component is off by at most kOrientation2dBound times its two products' magnitudes.
-  const double products = std::fabs(u.y * v.z) + std::fabs(u.z * v.y) + std::fabs(u.z * v.x) +
-                          std::fabs(u.x * v.z) + std::fabs(u.x * v.y) + std::fabs(u.y * v.x);
-  if (kOrientation2dBound * products + kUnderflow <= kNormalTolerance * max_abs(normal)) return normal;
+  const PlainNormal normal(a, b, c);
+  if (normal.error <= kNormalTolerance * max_abs(normal.value)) return normal.value;
   if (may_underflow({a, b, c})) {
     if (budget != nullptr) budget->spend(3 * dyadic_work({a, b, c}) / kDyadicMinors);
     return normal_of_tiny(a, b, c);

@@ -159,10 +159,14 @@ inline int projection_axis(Vec3 normal) {
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
+// An axis along which a projection does not flatten the triangle, unless it is collinear. This costs less than the normal
+// of a thin triangle.
+int projection_axis(Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr);
+
 // Whether a point lies in the closed triangle. It has to be in its plane, and the triangle must not be collinear.
 template <class Point>
 bool plane_point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c, Budget* budget = nullptr) {
-  const int axis = projection_axis(rounded_normal(a, b, c, budget));
+  const int axis = projection_axis(a, b, c, budget);
   const int ab = orientation_2d_at(a, b, p, axis, budget);
   const int bc = orientation_2d_at(b, c, p, axis, budget);
   const int ca = orientation_2d_at(c, a, p, axis, budget);

@@ -145,7 +145,7 @@ bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t, Budget* budget) {
   if (sq == 0 && plane_point_in_triangle(q, t[0], t[1], t[2], budget)) return true;
   if (p == q) return false;
   if (sp == 0 && sq == 0) {
-    const int axis = projection_axis(rounded_normal(t[0], t[1], t[2], budget));
+    const int axis = projection_axis(t[0], t[1], t[2], budget);
     for (int i = 0; i < 3; ++i) {
       if (coplanar_segments_meet(p, q, t[i], t[(i + 1) % 3], axis, budget)) return true;
     }
@@ -206,7 +206,7 @@ bool share_area(const Corners& a, const Corners& b, int drop_axis, Budget* budge
 
 CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b, Budget* budget) {
   if (is_collinear(a, budget) || is_collinear(b, budget) || !all_zero(sides(a, b, budget))) return CoplanarOverlap::none;
-  const int axis = projection_axis(rounded_normal(a[0], a[1], a[2], budget));
+  const int axis = projection_axis(a[0], a[1], a[2], budget);
   if (!share_area(a, b, axis, budget)) return CoplanarOverlap::none;
   const auto turn = [&](const Corners& t) { return orientation_2d(t[0], t[1], t[2], axis, budget); };
   const bool agree = turn(a) == turn(b);

@@ -38,9 +38,8 @@ int place_in_triangle(const int (&side)[3]) {
 struct Facet {
   Facet(const Mesh& mesh, std::uint32_t t)
       : number(t), vertex(mesh.triangles[t]), corner(corners(mesh, t)) {
-    const Vec3 normal = rounded_normal(corner[0], corner[1], corner[2]);
-    is_collinear = normal == Vec3{};
-    axis = projection_axis(normal);
+    is_collinear = collinear(corner[0], corner[1], corner[2]);
+    axis = projection_axis(corner[0], corner[1], corner[2]);
   }
 
   MeshFeature edge(int i) const { return MeshFeature::edge(vertex[i], vertex[(i + 1) % 3]); }

@@ -20,7 +20,7 @@ constexpr double kSmallestFraction = 1e-200;
 }  // namespace
 
 PlaneGraph::PlaneGraph(const Corners& plane, Budget* budget)
-    : plane_(plane), axis_(projection_axis(rounded_normal(plane[0], plane[1], plane[2], budget))),
+    : plane_(plane), axis_(projection_axis(plane[0], plane[1], plane[2], budget)),
       turn_(orientation_2d(plane[0], plane[1], plane[2], axis_, budget)), budget_(budget) {}
 
 void PlaneGraph::build() {

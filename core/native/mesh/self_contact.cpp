@@ -32,7 +32,7 @@ struct SharedFirst {
 
 MeshTriangle::MeshTriangle(const Mesh& mesh, std::uint32_t t, Budget* budget)
     : mesh_(&mesh), budget_(budget), t_(mesh.triangles[t]), c_(corners(mesh, t)), plane_(c_[0], c_[1], c_[2]),
-      axis_(projection_axis(rounded_normal(c_[0], c_[1], c_[2], budget))), turn_(turn(c_[0], c_[1], c_[2])) {}
+      axis_(projection_axis(c_[0], c_[1], c_[2], budget)), turn_(turn(c_[0], c_[1], c_[2])) {}
 
 bool MeshTriangle::has_more_in_common_with(std::uint32_t other) const {
   const Triangle& u = mesh_->triangles[other];

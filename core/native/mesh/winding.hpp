@@ -135,8 +135,7 @@ std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Poi
   if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return Beside{};
   std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p, known, budget);
   std::sort(here.begin(), here.end());
-  const Vec3 normal = rounded_normal(a, b, c, budget);
-  const int axis = projection_axis(normal);
+  const int axis = projection_axis(a, b, c, budget);
   const int turn = orientation_2d(a, b, c, axis, budget);
   int step = 0;               // on the way from the front to the back
   bool on_an_edge = false;    // then several triangles make up one step

@@ -168,7 +168,7 @@ class Hinges {
 
 // Whether the segment p q, in the plane of t, passes through the open triangle.
 bool runs_through(Vec3 p, Vec3 q, const Corners& t, Budget* budget) {
-  const int axis = projection_axis(rounded_normal(t[0], t[1], t[2], budget));
+  const int axis = projection_axis(t[0], t[1], t[2], budget);
   const auto left_of = [&](Vec3 from, Vec3 to, Vec3 x) { return orientation_2d(from, to, x, axis, budget); };
   const int turn = left_of(t[0], t[1], t[2]);
   int left = 0, right = 0;

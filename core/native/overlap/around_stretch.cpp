@@ -49,7 +49,7 @@ class Turn {
   std::optional<Vec3> corner_in(const HalfPlane& h, Vec3 from, Vec3 to) const {
     const Corners t = corners(*meshes_[h.mesh], h.triangle);
     if (h.edge >= 0) return t[(h.edge + 2) % 3];
-    const int axis = projection_axis(rounded_normal(t[0], t[1], t[2]));
+    const int axis = projection_axis(t[0], t[1], t[2]);
     const int turn = orientation_2d(t[0], t[1], t[2], axis) * sign_of(h.left);
     for (const Vec3& p : t) {
       if (turn * orientation_2d(from, to, p, axis) > 0) return p;
@@ -66,7 +66,7 @@ class Turn {
       if (!h) return std::nullopt;
     }
     const Corners t = corners(*meshes_[0], at[0]->triangle), u = corners(*meshes_[1], at[2]->triangle);
-    const int axis = projection_axis(rounded_normal(t[0], t[1], t[2]));
+    const int axis = projection_axis(t[0], t[1], t[2]);
     const int turn = orientation_2d(t[0], t[1], t[2], axis);
     const ExactPoint &low = nodes_.at(half_planes_[0].low), &high = nodes_.at(half_planes_[0].high);
     for (const Vec3& p : t) {
