@@ -18,6 +18,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.stages.depth import (
     frees_boxes,
     gap_around,
+    length_and_normal,
     verified_escape,
     way_out_of_hulls,
 )
@@ -43,7 +44,7 @@ def concave_depth(draft: Draft) -> Depth:
     if pair.may("exact"):
         lower, upper, way_out = _searched(draft, lower, upper)
         if way_out is not None:
-            ways.insert(0, (*_length_and_normal(way_out), way_out))
+            ways.insert(0, (*length_and_normal(way_out), way_out))
     elif draft.exact_proven and pair.may("parts"):
         lower = max(lower, depth_of_parts(draft))
     escape = _shortest_escape(draft, ways)
@@ -149,16 +150,9 @@ def depth_by_move(draft: Draft, move: Vector) -> Depth:
 
 def depth_of_move(pair: Pair, move: Vector, lower: float) -> Depth:
     """Of a pair that a verified translation of A frees."""
-    length, normal = _length_and_normal(move)
+    length, normal = length_and_normal(move)
     upper = length + 2 * UNIT_ROUNDOFF * pair.largest_coordinate
     return Depth(min(lower, upper), upper, Escape(move, normal, True, upper))
-
-
-def _length_and_normal(translation: Vector) -> tuple[float, Vector]:
-    """Its length and the direction against it; both exact along an axis."""
-    length = math.hypot(*translation)
-    x, y, z = (0.0 - c / length for c in translation)
-    return length, (x, y, z)
 
 
 def _crossing_depth(draft: Draft) -> float:

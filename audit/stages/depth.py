@@ -18,6 +18,8 @@ from satcheck.core.rounding import UNIT_ROUNDOFF
 from satcheck.report.report import Vector, Witness
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from satcheck.core.curved.signed import Signed
 
 
@@ -79,6 +81,9 @@ FREE = frozenset({"separated", "touching"})
 # coordinate of the pair. The first step covers another order of rounding. Each step is four times
 # longer than the last. The longest is about 1e-9 of the size.
 LENGTHENING_ULPS = (4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304)
+# Decimals to which the way into a fit is rounded, after the first digit of its largest component. A
+# search goes 1e-10 of it too far.
+_DECIMALS = (9, 7, 5, 4, 3, 2, 1, 0)
 
 
 def verified_escape(
@@ -86,8 +91,9 @@ def verified_escape(
 ) -> Escape:
     """The shortest accepted translation along -normal, at least `length` long.
 
-    found: that of a search, from which both follow but for rounding. It is taken where a longer one
-    is not free, as in a hole into which A just fits.
+    found: that of a search, from which both follow but for rounding. Where no longer one is free,
+    as in a hole into which A just fits, it is taken as it is, or else in fewer decimals: only a way
+    that rounds no coordinate may stay in the plane in which A fits.
 
     The nominal length is tried only where adding it to A's coordinates rounds nothing; elsewhere a
     few ulps are added at once, so that another program's order of rounding separates too. The
@@ -107,12 +113,33 @@ def verified_escape(
             draft.record("verify", relation, f"A moved by its MTV{longer}")
             bound = length if step == 0 else length + (step + 2) * ulp
             return Escape(mtv, normal, True, bound)
-    if found is not None and (relation := relation_after(pair, found)) in FREE:
-        draft.record("verify", relation, "A moved by its MTV; a longer one is not free")
-        return Escape(found, normal, True, length + 2 * ulp)
+    for way in () if found is None else _in_fewer_decimals(found):
+        if (relation := relation_after(pair, way)) in FREE:
+            draft.record("verify", relation, "A moved by its MTV; a longer one is not free")
+            length, normal = length_and_normal(way)
+            return Escape(way, normal, True, length + 2 * ulp)
     most = f"{LENGTHENING_ULPS[-1]} units in the last place"
     draft.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
     return Escape(against(normal, length), normal, False, math.inf)
+
+
+def _in_fewer_decimals(way: Vector) -> Iterator[Vector]:
+    """Yield a translation as it is, then rounded to ever fewer decimals."""
+    places = -math.floor(math.log10(max(map(abs, way))))
+    last = way
+    yield way
+    for decimals in _DECIMALS:
+        x, y, z = (round(c, places + decimals) + 0.0 for c in way)
+        if (x, y, z) != last:
+            last = x, y, z
+            yield last
+
+
+def length_and_normal(translation: Vector) -> tuple[float, Vector]:
+    """Return its length and the direction against it; both exact along an axis."""
+    length = math.hypot(*translation)
+    x, y, z = (0.0 - c / length for c in translation)
+    return length, (x, y, z)
 
 
 def relation_after(pair: Pair, translation: Vector) -> str:

@@ -89,3 +89,16 @@ def test_a_turned_neighbour_gets_a_few_ulps_more(tmp_path):
     assert finding.relation == "penetrating"
     assert 0.25 < math.hypot(*finding.mtv) < 0.25 * (1 + 1e-13)
     assert [stage.result for stage in finding.plan if stage.stage == "verify"] == ["separated"]
+
+
+def test_a_fit_between_cells_is_left_by_a_way_that_rounds_nothing(tmp_path):
+    """The shortest way, one cell along an axis, leads into a fit. The search finds it but for
+    rounding, and no longer one along it is free."""
+    a = [(-5, -6, -2), (-5, -4, -5), (-5, -4, -3), (-5, -4, -2), (-4, -6, -2), (-4, -4, -5)]
+    a += [(-4, -4, -2), (-4, -2, -5), (-4, -2, -4), (-4, -2, -3), (-4, -2, -2), (-2, -2, -5)]
+    solids = [VoxelSolid(frozenset(cells)).mesh() for cells in (a, [(-4, -6, -1), (-4, -2, -5)])]
+    meshes = [(solid.vertices.tolist(), solid.triangles.tolist()) for solid in solids]
+    finding = only(check(scene_of(tmp_path, a=meshes[0], b=meshes[1]), Settings(depth=True)))
+    assert finding.depth_bounds[0] <= 1.0 <= finding.depth_bounds[1]
+    assert finding.mtv_verified
+    assert sorted(map(abs, finding.mtv)) == [0.0, 0.0, 1.0]
