@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.draft import Draft, indeterminate
@@ -152,7 +153,7 @@ def _examined_within(
     pair may take."""
     for k in order:
         pairs[k].steps = steps
-    leaving, held = {} if keep else _leaving(pairs, order), _Held()
+    leaving, held = {} if keep else _leaving(pairs, order), Held()
     for k, checked in _careful(pairs, order) if is_careful() else _batched(pairs, order, jobs):
         yield k, checked
         held.use(pairs[k].a, pairs[k].b)
@@ -160,7 +161,7 @@ def _examined_within(
             held.release(body)
 
 
-class _Held:
+class Held:
     """Bodies whose data are in memory, the least recently used first."""
 
     def __init__(self) -> None:
@@ -281,9 +282,14 @@ def examine_pair(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     """Return the finding of one pair. A failure becomes a finding."""
     draft = Draft(pair)
     try:
+        later = pair.request.shared if pair.shares and not (pair.both_convex or pair.curved) else ()
+        if later:
+            by = {effect: who for effect, who in pair.request.by.items() if effect not in later}
+            draft.pair = replace(pair, request=replace(pair.request, by=by))
         finding = examine(draft, climb)
+        draft.pair, draft.waits = pair, bool(later) and draft.exact in OVERLAPS
         fails_now = finding.relation in OVERLAPS and fails(finding, pair.settings.fail_on)
-        if pair.request.if_failing and fails_now:
+        if draft.waits or (pair.request.if_failing and fails_now):
             return CheckedPair(finding, (), draft, draft.steps, draft.wants_more)
         return finished(finding, draft)
     except Exception as error:  # noqa: BLE001  the other pairs are still checked

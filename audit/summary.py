@@ -361,6 +361,6 @@ def _why_not(
         return FAILED
     if effect == "distance":
         return OVERLAP if (finding.exact_relation or finding.at_rest) in OVERLAPS else FAR
-    if effect in ("depth", "thickness") and finding.at_rest in OVERLAPS:
-        return NO_ANSWER if "depth" in done else BEYOND_BUDGET
+    if effect in ("depth", "thickness", "volume") and finding.at_rest in OVERLAPS:
+        return NO_ANSWER if effect == "thickness" and "depth" in done else BEYOND_BUDGET
     return NO_OVERLAP
