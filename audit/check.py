@@ -35,6 +35,7 @@ from satcheck.audit.summary import (
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import (
     ENOUGH_FAILURES,
+    MEETINGS_OF_BODY,
     OUTSIDE_REGION,
     REGION_OPEN,
     Exempt,
@@ -61,7 +62,7 @@ if TYPE_CHECKING:
 DEFAULT_SETTINGS = Settings()
 
 # The most close pairs that are examined together.
-BLOCK = 50_000
+BLOCK = 20_000
 
 
 def check(
@@ -261,16 +262,18 @@ def _examined(
     *,
     keep: bool,
 ) -> tuple[list[IndexPair], list[CheckedPair], int]:
-    """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, what is found of
-    each, and the number of close pairs after them. A pair for which the steps of the scene do not
-    suffice counts as a failure. keep: later checks need the data of the bodies."""
+    """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, or as many that
+    meet as a scene may have, what is found of each, and the number of close pairs after them. A
+    pair for which the steps of the scene do not suffice counts as a failure. keep: later checks
+    need the data of the bodies."""
     pairs: list[IndexPair] = []
     examined: list[CheckedPair] = []
-    failures = 0
+    failures = meetings = 0
+    most_meetings = ENOUGH_FAILURES + MEETINGS_OF_BODY * len(bodies.placed)
     blocks = close.blocks(BLOCK)
     block, after = next(blocks, []), next(blocks, [])
     total = close.count() if after else len(block)
-    while block and failures < ENOUGH_FAILURES:
+    while block and failures < ENOUGH_FAILURES and meetings < most_meetings:
         told = None if progress is None else _counting_on(progress, len(pairs), total)
         kept = keep or bool(after)
         found = _examined_together(bodies, block, planner, movers, tools, told, budget, keep=kept)
@@ -282,6 +285,7 @@ def _examined(
             or (pair.wants_more and pair.finding.relation == "indeterminate")
             for pair in found
         )
+        meetings += sum(pair.finding.relation not in ("separated", "near") for pair in found)
         if after and not keep:
             for i in {i for i, _ in block} - {after[0][0]}:
                 bodies.placed[i].release()

@@ -60,7 +60,8 @@ def with_figures(
     _measure(pairs, waiting, left // STEPS_OF_SEARCH, threads, shared=True)
     failing = [k for k in order if _calls_for_figures(pairs[k])]
     _measure(pairs, failing, settings.work, 1, shared=False)
-    done = _each(lambda k: _finished(pairs[k]), order, threads)
+    some = any(d.pair.moves or d.pair.request.wants("certificate") for d in drafts.values())
+    done = _each(lambda k: _finished(pairs[k]), order, threads if some else 1)
     for k, pair in zip(order, done, strict=True):
         pairs[k] = pair
     for draft in drafts.values() if not keep else ():
