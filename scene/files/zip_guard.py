@@ -34,8 +34,8 @@ def read_part(archive: zipfile.ZipFile, name: str, most: Most) -> bytes:
     most.refuse_beyond(entry.file_size, f"part {name!r}, unpacked")
     if entry.file_size > max(ANY_UNPACKED, MAX_UNPACKED * entry.compress_size):
         message = (
-            f"part {name!r}: {entry.file_size} bytes, packed into {entry.compress_size}, exceed the "
-            f"limit of {MAX_UNPACKED} times as many. If you trust the file, pack it with zip -0"
+            f"part {name!r}: {entry.file_size} bytes, packed into {entry.compress_size}, exceed "
+            f"the limit of {MAX_UNPACKED} times as many. If you trust the file, pack it with zip -0"
         )
         raise Refused("too-large", message)
     return archive.read(entry)
