@@ -21,7 +21,7 @@ from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.draft import Draft, indeterminate
-from satcheck.audit.finding import examine
+from satcheck.audit.finding import examine, measure
 from satcheck.audit.pair import (
     MOST_STEPS,
     STEPS_OF_COPIED_TRIANGLE,
@@ -282,12 +282,16 @@ def examine_pair(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     """Return the finding of one pair. A failure becomes a finding."""
     draft = Draft(pair)
     try:
-        later = pair.request.shared if pair.shares and not (pair.both_convex or pair.curved) else ()
-        if later:
-            by = {effect: who for effect, who in pair.request.by.items() if effect not in later}
+        shared = pair.request.shared if pair.shares and not pair.curved else ()
+        if shared:
+            by = {effect: who for effect, who in pair.request.by.items() if effect not in shared}
             draft.pair = replace(pair, request=replace(pair.request, by=by))
         finding = examine(draft, climb)
-        draft.pair, draft.waits = pair, bool(later) and draft.exact in OVERLAPS
+        draft.pair = pair
+        is_known = finding.relation != "indeterminate" or "depth" in shared
+        if shared and draft.exact in OVERLAPS and is_known:
+            draft.waits = not pair.both_convex
+            finding = finding if draft.waits else measure(draft, shared)
         fails_now = finding.relation in OVERLAPS and fails(finding, pair.settings.fail_on)
         if draft.waits or (pair.request.if_failing and fails_now):
             return CheckedPair(finding, (), draft, draft.steps, draft.wants_more)
