@@ -14,7 +14,7 @@ ANY_BODIES, BYTES_OF_BODY = 50_000, 8
 MAX_TRIANGLES = 50_000_000
 MAX_VERTICES = 3 * MAX_TRIANGLES
 # Of one body of many instances: so many triangles, and so many times those of all its meshes.
-ANY_COPIED, MAX_COPIES = 1_000_000, 50
+ANY_COPIED, MAX_COPIES = 1_000_000, 500
 MAX_WITHOUT_DATA = 100_000  # elements of accessors of glTF that the file does not hold
 # Indices of glTF may name the data of their file so many times over, and more of them in any case.
 MAX_REPEATED, ANY_REPEATED = 4, BYTES_PER_MEGABYTE // 4
