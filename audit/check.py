@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from msgspec import UNSET, UnsetType
 from msgspec.structs import replace
@@ -35,6 +35,7 @@ from satcheck.audit.summary import (
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import (
     ENOUGH_FAILURES,
+    MEETINGS_OF_BODY,
     OUTSIDE_REGION,
     REGION_OPEN,
     Exempt,
@@ -54,13 +55,14 @@ if TYPE_CHECKING:
     from satcheck.core.peers import Peers, VolumeMeter
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
-    from satcheck.report.request import Request
     from satcheck.report.statics import Statics
+
+    Tools: TypeAlias = tuple[VolumeMeter | None, Peers | None]
 
 DEFAULT_SETTINGS = Settings()
 
 # The most close pairs that are examined together.
-BLOCK = 50_000
+BLOCK = 20_000
 
 
 def check(
@@ -100,11 +102,13 @@ def check(
 
         movers = Movers(scene, bodies, planner)
     close = ClosePairs(bodies, planner) if movers is None else movers.close()
-    pairs, examined, unexamined = _examined(
-        bodies, close, planner, movers, progress, keep=cache is not None
-    )
-    if any(pair.draft is not None for pair in examined):
-        examined = with_figures(examined, settings, keep=cache is not None)
+    budget, keep = StepsOfScene(), cache is not None
+    with _tools(planner) as tools:
+        pairs, examined, unexamined = _examined(
+            bodies, close, planner, movers, tools, progress, budget, keep=keep
+        )
+        if any(pair.draft is not None for pair in examined):
+            examined = with_figures(examined, settings, budget.left, keep=keep)
     return _report(scene, bodies, planner, movers, pairs, examined, unexamined)
 
 
@@ -120,7 +124,7 @@ def check_meshes_of(scene: Scene, settings: Settings) -> Finding:
         reach = planner.reach({0: a.resolution, 1: b.resolution})
         if core.box_gap(a.bounds, b.bounds) <= sum(reach):
             request = planner.request(0, 1)
-            with _tools(settings, [request]) as tools:
+            with _tools(planner) as tools:
                 pair = Pair(a, b, settings, request, *tools, alone=True)
                 examined[0, 1] = examine_pair(pair)
     (finding,) = _findings(bodies, [*examined], [*examined.values()], planner)
@@ -252,23 +256,27 @@ def _examined(
     close: ClosePairs,
     planner: Planner,
     movers: Movers | None,
+    tools: Tools,
     progress: Progress | None,
+    budget: StepsOfScene,
     *,
     keep: bool,
 ) -> tuple[list[IndexPair], list[CheckedPair], int]:
-    """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, what is found of
-    each, and the number of close pairs after them. A pair for which the steps of the scene do not
-    suffice counts as a failure. keep: later checks need the data of the bodies."""
+    """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, or as many that
+    meet as a scene may have, what is found of each, and the number of close pairs after them. A
+    pair for which the steps of the scene do not suffice counts as a failure. keep: later checks
+    need the data of the bodies."""
     pairs: list[IndexPair] = []
     examined: list[CheckedPair] = []
-    failures = 0
-    budget, blocks = StepsOfScene(), close.blocks(BLOCK)
+    failures = meetings = 0
+    most_meetings = ENOUGH_FAILURES + MEETINGS_OF_BODY * len(bodies.placed)
+    blocks = close.blocks(BLOCK)
     block, after = next(blocks, []), next(blocks, [])
     total = close.count() if after else len(block)
-    while block and failures < ENOUGH_FAILURES:
+    while block and failures < ENOUGH_FAILURES and meetings < most_meetings:
         told = None if progress is None else _counting_on(progress, len(pairs), total)
         kept = keep or bool(after)
-        found = _examined_together(bodies, block, planner, movers, told, budget, keep=kept)
+        found = _examined_together(bodies, block, planner, movers, tools, told, budget, keep=kept)
         pairs += block
         examined += found
         fail_on = planner.settings.fail_on
@@ -277,6 +285,7 @@ def _examined(
             or (pair.wants_more and pair.finding.relation == "indeterminate")
             for pair in found
         )
+        meetings += sum(pair.finding.relation not in ("separated", "near") for pair in found)
         if after and not keep:
             for i in {i for i, _ in block} - {after[0][0]}:
                 bodies.placed[i].release()
@@ -294,32 +303,30 @@ def _examined_together(
     close: list[IndexPair],
     planner: Planner,
     movers: Movers | None,
+    tools: Tools,
     progress: Progress | None,
     budget: StepsOfScene,
     *,
     keep: bool,
 ) -> list[CheckedPair]:
     settings = planner.settings
-    requests = [planner.request(i, j) for i, j in close]
-    with _tools(settings, requests) as tools:
-        alone = len(close) == 1 and not keep
-        pairs = [
-            Pair(bodies.placed[i], bodies.placed[j], settings, request, *tools, alone=alone)
-            for (i, j), request in zip(close, requests, strict=True)
-        ]
-        if movers is not None:
-            movers.add_sweeps(pairs)
-        return examine_pairs(pairs, settings.jobs, progress, budget=budget, keep=keep)
+    alone, shares = len(close) == 1 and not keep, len(close) > 1
+    pairs = []
+    for i, j in close:
+        a, b, request = bodies.placed[i], bodies.placed[j], planner.request(i, j)
+        pairs.append(Pair(a, b, settings, request, *tools, alone=alone, shares=shares))
+    if movers is not None:
+        movers.add_sweeps(pairs)
+    return examine_pairs(pairs, settings.jobs, progress, budget=budget, keep=keep)
 
 
 @contextmanager
-def _tools(
-    settings: Settings, requests: Sequence[Request]
-) -> Iterator[tuple[VolumeMeter | None, Peers | None]]:
-    """The other libraries that pairs with these requests need."""
+def _tools(planner: Planner) -> Iterator[Tools]:
+    """The other libraries that the pairs of a check need."""
+    settings = planner.settings
     with ExitStack() as stack:
         meter = peers = None
-        if any(request.wants("volume") for request in requests):
+        if planner.requested_by("volume"):
             meter = stack.enter_context(volume_meter(settings))
         if settings.cross_check:
             from satcheck.core.peers import Peers

@@ -24,10 +24,11 @@ _FCL_SERVER: Final = "satcheck.core.fcl_server"
 
 class OverlapVolume(Struct, frozen=True):
     """volume: in float64. error: the largest change of the volume if both surfaces move by the
-    tolerance of the Boolean. It is an estimate and not a proof."""
+    tolerance of the Boolean. It is an estimate and not a proof. triangles: of the results."""
 
     volume: float
     error: float
+    triangles: int
 
 
 class VolumeMeter:
@@ -62,7 +63,7 @@ class VolumeMeter:
         answer = self._answer("volume", a, b)
         scale = 3 * answer["exponent"]
         volume = math.ldexp(answer["volume"], scale)
-        return OverlapVolume(volume, math.ldexp(answer["error"], scale))
+        return OverlapVolume(volume, math.ldexp(answer["error"], scale), answer["triangles"])
 
     def common(self, a: Mesh, b: Mesh) -> Mesh | None:
         """The surface of the overlap of two solids; None: it is empty. Conditions and errors are

@@ -16,6 +16,7 @@ from satcheck.report.regions import Regions
 from satcheck.report.report import (
     EFFECTS,
     ENOUGH_FAILURES,
+    MEETINGS_OF_BODY,
     SUPPORT_OPEN,
     UNSUPPORTED,
     Exempt,
@@ -213,6 +214,8 @@ class _Report:
             for f in self.findings
             if isinstance(f, Finding)
         )
+        meetings = sum(f.relation not in ("separated", "near") for f in self.findings)
+        most_meetings = ENOUGH_FAILURES + MEETINGS_OF_BODY * len(self.bodies)
         for a, b in combinations(self.bodies.values(), 2):
             if frozenset((a.id, b.id)) in self.listed:
                 continue
@@ -222,7 +225,7 @@ class _Report:
                 left_open += 1
             elif boxes_apart(a, b, self.request_of(a, b)):
                 pruned += 1
-            elif failures >= ENOUGH_FAILURES:
+            elif failures >= ENOUGH_FAILURES or meetings >= most_meetings:
                 left_open += 1
             else:
                 fault = f"{a.id} and {b.id} are not apart by their boxes, and not listed"

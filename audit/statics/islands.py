@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 from msgspec import Struct
@@ -85,7 +86,7 @@ def _islands(subjects: Sequence[Subject], touching: Sequence[Sequence[int]]) -> 
     return islands
 
 
-class Outcome(Struct, frozen=True):
+class Outcome(Struct, frozen=True, dict=True):
     """stated: as in the report. island: with all its contacts; None: nothing was solved. forces:
     (contact, point) -> force on the first body of the contact. motions: body -> velocity (6,)."""
 
@@ -94,14 +95,14 @@ class Outcome(Struct, frozen=True):
     forces: dict[tuple[int, int], Floats] = {}
     motions: dict[int, Floats] = {}
 
-    @property
+    @cached_property
     def standing(self) -> Island | None:
         """The island with the contacts at which forces hold it; None: no such forces are known."""
         if self.island is None or self.stated.tolerant != "yes":
             return None
         return self.island.among_strict() if self.stated.strict == "yes" else self.island
 
-    @property
+    @cached_property
     def beside_walls(self) -> bool:
         """Whether a contact is steeper than 45 degrees, so that it may squeeze."""
         if self.island is None:

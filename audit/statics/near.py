@@ -12,6 +12,7 @@ Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 BLOCK = 1 << 18  # pairs compared at once
+FEW = 1 << 10  # so few are compared at once without a look at the boxes around them
 
 
 class TooManyNear(Exception):
@@ -55,6 +56,9 @@ def _products(
     while pending:
         i, j = pending.pop()
         if not (i.size and j.size):
+            continue
+        if i.size * j.size <= FEW:
+            yield i, j
             continue
         low, high = low_b[j].min(axis=0) - reach, high_b[j].max(axis=0) + reach
         i = i[((low_a[i] <= high) & (high_a[i] >= low)).all(axis=1)]

@@ -9,8 +9,12 @@ BYTES_PER_MEGABYTE = 1 << 20
 
 # Instances multiply: a dozen nested components can expand to 10^12 instances or triangles.
 MAX_PLACEMENTS = 200_000
+# The same for bodies: so many, and one more for so many bytes of the file, as a placement takes.
+ANY_BODIES, BYTES_OF_BODY = 50_000, 8
 MAX_TRIANGLES = 50_000_000
 MAX_VERTICES = 3 * MAX_TRIANGLES
+# Of one body of many instances: so many triangles, and so many times those of all its meshes.
+ANY_COPIED, MAX_COPIES = 1_000_000, 500
 MAX_WITHOUT_DATA = 100_000  # elements of accessors of glTF that the file does not hold
 # Indices of glTF may name the data of their file so many times over, and more of them in any case.
 MAX_REPEATED, ANY_REPEATED = 4, BYTES_PER_MEGABYTE // 4
@@ -24,7 +28,13 @@ IN_PROCESS_BYTES = 4 * BYTES_PER_MEGABYTE
 IN_PROCESS_WORK = 256 * BYTES_PER_MEGABYTE
 
 
-def refuse_many(count: int, what: str) -> None:
+# Zip archives: a part may unpack to so much, and to so many times its packed size. Meshes are
+# packed to a tenth.
+ANY_UNPACKED, MAX_UNPACKED = 8 * BYTES_PER_MEGABYTE, 100
+
+
+def refuse_many(count: int, what: str, most: int | None = None) -> None:
     """Raises Refused for more placed parts than a file may have."""
-    if count > MAX_PLACEMENTS:
-        raise Refused("too-large", f"more than {MAX_PLACEMENTS} {what}: split the file")
+    most = MAX_PLACEMENTS if most is None else min(most, MAX_PLACEMENTS)
+    if count > most:
+        raise Refused("too-large", f"more than {most} {what}: split the file")

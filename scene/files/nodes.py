@@ -50,7 +50,8 @@ def inspected(file: File, read: Document, *, apart: bool) -> Document:
     """
     said = list(read.warnings)
     shapes = [_shapes_of(file, part, said, apart=apart) for part in read.parts]
-    limits.refuse_many(sum(len(shapes[item.number]) for item in read.items), "bodies")
+    most = limits.ANY_BODIES + len(file.data) // limits.BYTES_OF_BODY
+    limits.refuse_many(sum(len(shapes[item.number]) for item in read.items), "bodies", most)
     items = []
     for item in read.items:
         for mark, shape in shapes[item.number]:
@@ -164,8 +165,14 @@ def flattened(document: Document) -> RawMesh:
     if not placed:
         raise Refused("empty-mesh", "empty mesh: no node has a surface")
     meshes = [mesh for mesh, _ in placed]
+    held = sum(len(mesh.triangles) // 12 for mesh in {id(mesh): mesh for mesh in meshes}.values())
+    most_copied = max(limits.ANY_COPIED, limits.MAX_COPIES * held)
     for most, what, count in (
-        (limits.MAX_TRIANGLES, "triangles", sum(len(mesh.triangles) // 12 for mesh in meshes)),
+        (
+            min(limits.MAX_TRIANGLES, most_copied),
+            "triangles",
+            sum(len(mesh.triangles) // 12 for mesh in meshes),
+        ),
         (limits.MAX_VERTICES, "vertices", sum(len(mesh.vertices) // 24 for mesh in meshes)),
     ):
         if count > most:

@@ -113,15 +113,25 @@ class Option(Struct, frozen=True):
         return get_origin(self._plain_type) is tuple
 
     def _refused(self, value: object) -> SatcheckError:
+        """Return what is wrong with a value. A number may be beyond the limits that `help` has."""
         if self._plain_type is bool:
             fit = "true or false"
         elif self.choices:
             several = ", or several with commas" if self._takes_several else ""
             fit = f"one of {', '.join(self.choices)}{several}"
         else:
-            what = "a number" if self._plain_type in (int, float) else "another value"
+            is_number = self._plain_type in (int, float)
+            what = "a number" if is_number and not _states_number(value) else "another value"
             fit = f"{what} ({self.help})"
         return SatcheckError("bad-argument", f"{self.spelling} should be {fit}, not {value!r}")
+
+
+def _states_number(value: object) -> bool:
+    try:
+        float(str(value))
+    except ValueError:
+        return False
+    return True
 
 
 # `--geometry` gives it.

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 
 from satcheck.scene.access import Most
 from satcheck.scene.errors import Refused
+from satcheck.scene.files.limits import ANY_UNPACKED, MAX_UNPACKED
 
 
 @contextmanager
@@ -31,4 +32,10 @@ def read_part(archive: zipfile.ZipFile, name: str, most: Most) -> bytes:
     """Return the content of a part. Raises Refused if it unpacks to too much."""
     entry = archive.getinfo(name)
     most.refuse_beyond(entry.file_size, f"part {name!r}, unpacked")
+    if entry.file_size > max(ANY_UNPACKED, MAX_UNPACKED * entry.compress_size):
+        message = (
+            f"part {name!r}: {entry.file_size} bytes, packed into {entry.compress_size}, exceed "
+            f"the limit of {MAX_UNPACKED} times as many. If you trust the file, pack it with zip -0"
+        )
+        raise Refused("too-large", message)
     return archive.read(entry)

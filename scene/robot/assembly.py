@@ -26,6 +26,8 @@ from satcheck.scene.words import listed, meant
 
 UNITS = "m"  # of every URDF, SDFormat and MJCF file
 SAME_LINK = "one rigid link"
+# If a link has more bodies, they are a group with one rule, in place of a rule for each pair.
+MOST_NAMED = 100
 
 
 class RobotBody(Struct, frozen=True):
@@ -121,6 +123,7 @@ def document_of_robot(read: Document, file: File) -> Document:
     items: list[Item] = []
     lost: dict[tuple[str, str], list[Collision]] = {}
     for link in robot.links.values():
+        group = (_group_of(link.name),) if len(link.collisions) > MOST_NAMED else ()
         for number, collision in enumerate(link.collisions, 1):
             shape = _shape(collision, places.of(collision.file or robot.file))
             if isinstance(shape, Refused):
@@ -132,7 +135,7 @@ def document_of_robot(read: Document, file: File) -> Document:
                 transform=_offset(collision),
                 shape=shape,
                 static=link.static,
-                groups=collision.groups,
+                groups=(*collision.groups, *group),
                 entry=Entry(collision.file or robot.file, line=collision.line),
             )
             items.append(item)
@@ -226,11 +229,8 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
 def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
     """(rules for the pairs of its bodies that may touch, issues about them): those within a link,
     and those that its format or its SRDF names."""
-    srdf, file, bodies = robot.srdf, robot.robot.file, robot.by_link()
-    rules = [
-        _allowed(pair, SAME_LINK, file) for own in bodies.values() for pair in combinations(own, 2)
-    ]
-    rules += _exempted(robot, bodies)
+    srdf, bodies = robot.srdf, robot.by_link()
+    rules = [*_within_links(robot, bodies), *_exempted(robot, bodies)]
     if srdf is None:
         return rules, list(_checked_neighbours(robot))
     for a, b in combinations(bodies, 2):
@@ -238,6 +238,22 @@ def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
         if reason is not None:
             rules += [_allowed(pair, reason, srdf.file) for pair in product(bodies[a], bodies[b])]
     return rules, [*_about_srdf(robot, srdf), *_checked_neighbours(robot)]
+
+
+def _within_links(robot: SceneRobot, bodies: Mapping[str, Sequence[str]]) -> Iterator[Rule]:
+    """bodies: of each link."""
+    file = robot.robot.file
+    for link, own in bodies.items():
+        group = robot.groups.get(_group_of(link))
+        if group is None:
+            yield from (_allowed(pair, SAME_LINK, file) for pair in combinations(own, 2))
+        elif len(own) > 1:
+            yield _allowed((group, group), SAME_LINK, file, Selector.exactly_group)
+
+
+def _group_of(link: str) -> str:
+    """Return the group of the bodies of a link, if they are many."""
+    return f"all of {link}"
 
 
 def _exempted(robot: SceneRobot, bodies: Mapping[str, Sequence[str]]) -> Iterator[Rule]:

@@ -23,11 +23,12 @@ from satcheck.scene.errors import Refused
 from satcheck.scene.files.limits import MAX_DEPTH
 from satcheck.scene.opening import read_whole, suffix_of
 from satcheck.scene.table import Keys, Wrong
-from satcheck.scene.words import why_unreadable
+from satcheck.scene.words import quoted, why_unreadable
 
 T = TypeVar("T")
 
 MOST = 20  # errors told about one file
+LONGEST_KEY = 80  # characters of a key in a message
 _BARE_LENGTH = r"""^[^"'#]*=[\s\[]*([-+]?[\d._e+-]+\s?[a-zµ]+)\b"""
 _TEXT = r'"[^"\\\n]*+(?:\\.[^"\\\n]*+)*+"'
 _NUMBERS = r"""\[[^][{}"'#]*+\]"""
@@ -148,8 +149,8 @@ def dotted(keys: Keys) -> str:
         if isinstance(key, int):
             text += f"[{key}]"
         else:
-            plain = key.replace("_", "").replace("-", "").isalnum()
-            text += f".{key if plain else repr(key)}"
+            plain = key.replace("_", "").replace("-", "").isalnum() and len(key) <= LONGEST_KEY
+            text += f".{key if plain else quoted(key, LONGEST_KEY)}"
     return text.removeprefix(".")
 
 

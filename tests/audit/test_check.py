@@ -122,6 +122,24 @@ def test_after_enough_failures_the_other_pairs_are_counted_as_undecided(tmp_path
     assert verified.accepted, verified
 
 
+def test_after_enough_pairs_that_meet_the_others_are_counted_as_undecided(tmp_path, monkeypatch):
+    """12 sheets at one place touch each other: none of 66 pairs fails."""
+    stop_after(monkeypatch, failures=8, block=9)
+    for room in ("audit.check", "verify.document"):
+        monkeypatch.setattr(import_module(f"satcheck.{room}"), "MEETINGS_OF_BODY", 1)
+    (tmp_path / "sheet.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    scene = placed_scene(tmp_path, [(f"s{k}", "sheet.obj", pose()) for k in range(12)])
+    report = check(scene, Settings(certificate=True))
+    pairs = adds_up(report)
+    assert (pairs.total, pairs.decided, pairs.indeterminate) == (66, 27, 39)  # of 20 at least
+    assert (report.summary.verdict, {f.relation for f in report.findings}) == (
+        "incomplete",
+        {"touching"},
+    )
+    verified = verify(report.to_dict(), tmp_path)
+    assert verified.accepted, verified
+
+
 def test_a_baseline_of_all_findings_passes_no_check_that_has_stopped(tmp_path, monkeypatch):
     stop_after(monkeypatch, failures=20, block=9)
     report = check(one_place(tmp_path, 12))

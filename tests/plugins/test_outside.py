@@ -264,7 +264,7 @@ def test_an_option_with_a_name_that_is_none_fails_as_the_package_does(tmp_path: 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("--read", "tetra-scale=0"), "should be a number (the factor of all corners"),
+        (("--read", "tetra-scale=0"), "should be another value (the factor of all corners"),
         (("--read", "tetra-skale=2"), "there are"),
         (("box.obj", "--read", "tetra-scale=2"), "has the option tetra-scale: they have none"),
     ],

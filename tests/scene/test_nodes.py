@@ -447,3 +447,22 @@ def test_a_corner_beyond_its_mesh_is_no_corner_of_the_next():
     beyond = np.array([0, 1, 3], "<u4").tobytes()
     with pytest.raises(ValueError, match="names vertex 3 of 3"):
         concatenate([(points, beyond, None), (points, triangles, None)])
+
+
+def test_a_small_file_places_fewer_bodies(tmp_path, monkeypatch):
+    """However few bytes it takes to state them: one more body for eight bytes of the file."""
+    nodes = [{"mesh": 0} for _ in range(40)]
+    content = graphs.glb(nodes, roots=[*range(40)])
+    for spare, few in ((0, True), (-1, False)):
+        most = 40 - len(content) // limits.BYTES_OF_BODY + spare
+        monkeypatch.setattr(limits, "ANY_BODIES", most)
+        scene = scene_of(tmp_path, "a.glb", content)
+        assert [issue.code for issue in scene.issues] == ([] if few else ["too-large"])
+
+
+def test_copies_that_make_one_body_are_few_times_what_the_file_holds(tmp_path, monkeypatch):
+    content = graphs.glb([{"mesh": 0} for _ in range(60)], roots=[*range(60)])
+    assert not scene_of(tmp_path, "a.glb", content, "none").unreadable
+    monkeypatch.setattr(limits, "ANY_COPIED", 0)
+    (refused,) = scene_of(tmp_path, "a.glb", content, "none").unreadable
+    assert "triangles in all instances exceed" in str(refused)

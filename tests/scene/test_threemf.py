@@ -7,11 +7,15 @@ import zipfile
 
 import pytest
 
+from satcheck.scene.access import Most
+from satcheck.scene.errors import Refused
+from satcheck.scene.files import zip_guard
 from tests.scene import files
 from tests.scene.loading import load, loaded, refusal, warnings
 
 CUBE = files.object_3mf(1)
 ITEM = '<item objectid="1"/>'
+MOST = Most(1 << 20, "the most of a test")
 SLICES = "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07"
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PLACED = (
@@ -570,3 +574,19 @@ def test_an_object_with_two_meshes_is_refused(tmp_path):
     mesh = CUBE[CUBE.index("<mesh>") : CUBE.index("</mesh>") + len("</mesh>")]
     code, message = refusal(tmp_path, "a.3mf", package(CUBE.replace("</mesh>", f"</mesh>{mesh}")))
     assert (code, "two <mesh>" in message) == ("bad-record", True)
+
+
+@pytest.mark.parametrize("packing", [zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED])
+@pytest.mark.parametrize("little", [True, False])
+def test_a_part_may_unpack_to_many_times_its_size_if_that_is_little(monkeypatch, packing, little):
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", packing) as archive:
+        archive.writestr("a", b" " * 100_000)
+    monkeypatch.setattr(zip_guard, "ANY_UNPACKED", 100_000 if little else 99_999)
+    with zip_guard.opened_zip(content.getvalue(), "a package") as package:
+        if little or packing == zipfile.ZIP_STORED:
+            assert len(zip_guard.read_part(package, "a", MOST)) == 100_000
+            return
+        with pytest.raises(Refused, match="limit of 100 times as many") as refused:
+            zip_guard.read_part(package, "a", MOST)
+        assert refused.value.code == "too-large"

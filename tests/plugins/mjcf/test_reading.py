@@ -8,6 +8,7 @@ import mujoco
 import pytest
 from msgspec.structs import replace
 
+from satcheck.audit import check
 from satcheck.core.shapes import Box, Capsule, Cylinder, Ellipsoid, HalfSpace, Sphere
 from satcheck.plugins.mjcf.readers import read_mjcf
 from satcheck.scene import MeshFile, Refused, load_scene
@@ -300,3 +301,32 @@ def test_without_mujoco_the_error_says_what_to_install(monkeypatch: pytest.Monke
     with pytest.raises(Refused, match=r"pip install 'satcheck\[mjcf\]'") as caught:
         read_mjcf(File("mjcf", "", "m.xml", b"", path="m.xml"))
     assert caught.value.code == "missing-extra"
+
+
+def copied(count: int, inside: str) -> str:
+    return f'<replicate count="{count}">{inside}</replicate>'
+
+
+@pytest.mark.parametrize("times", [10, 100])
+def test_copies_are_counted_before_mujoco_makes_them(tmp_path: Path, times: int) -> None:
+    inner = f"<mujoco><worldbody>{copied(times, body('b', geom('g')))}</worldbody></mujoco>"
+    write(tmp_path, inner, "inner.xml")
+    part = '<asset><model name="part" file="inner.xml"/></asset>'
+    attached = copied(times, '<frame><attach model="part" prefix="p"/></frame>')
+    nested = copied(times, copied(times, body("b", geom("g"))))
+    for text in (f"<mujoco>{part}<worldbody>{attached}</worldbody></mujoco>", model(nested)):
+        if times == 10:
+            assert len(load(tmp_path, text).bodies) == 100
+        else:
+            code, message = refusal(tmp_path, text)
+            assert (code, "copies make more than 10000 elements" in message) == ("too-large", True)
+
+
+def test_many_geoms_of_a_body_share_one_rule(tmp_path: Path) -> None:
+    """Beside the rule for the two bodies, which do not move."""
+    for count, rules in ((100, 100 * 99 // 2), (101, 1)):
+        text = model(body("a", *["<geom size='1'/>"] * count), body("b", geom("g")))
+        scene = load(tmp_path, text)
+        assert len(scene.rules) == rules + 1
+        pairs = check(scene).summary.pairs
+        assert pairs.allowed == pairs.total == count * (count + 1) // 2

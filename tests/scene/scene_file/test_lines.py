@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from satcheck.scene.scene_file.text import innermost, lines_of, repeated_keys
+from satcheck.scene.scene_file.text import dotted, innermost, lines_of, repeated_keys
 from satcheck.scene.table import Keys
 
 TOML = '''# comment [[not.a.header]]
@@ -203,3 +203,8 @@ def test_keys_that_occur_twice_in_json() -> None:
     assert line(text, ("a",), toml=False) == 2
     assert list(repeated_keys('{"a": {"b": [{}, {}]}, "b": {"a": 1}}')) == []
     assert list(repeated_keys('{"a": [{"b": 1}], "a": [{"b": 1}]}')) == [("a",)]
+
+
+def test_a_long_key_is_cut_in_a_message() -> None:
+    assert dotted(("bodies", 2, "x" * 80)) == f"bodies[2].{'x' * 80}"
+    assert dotted(("x" * 81,)) == f"'{'x' * 80}...'"
