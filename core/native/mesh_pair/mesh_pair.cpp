@@ -18,7 +18,7 @@ namespace {
 // take a few thousand.
 constexpr std::uint64_t kPairWork = 3'500'000'000, kWorkOfTriangle = 100'000;
 // Of these a question of a search may take one part in so many.
-constexpr std::uint64_t kShareInSearch = 5;
+constexpr std::uint64_t kShareInSearch = 8;
 
 // The triangles by coordinates, each rotated to start at its least corner.
 std::vector<Corners> canonical_triangles(const Mesh& mesh, bool keep_winding) {
