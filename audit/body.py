@@ -18,6 +18,7 @@ from satcheck.core.shapes import is_curved
 from satcheck.core.steps import step
 from satcheck.scene.bodies import is_half_space, resolution_in_world
 from satcheck.scene.files.readers import is_complete
+from satcheck.scene.inspect import CRACK_WIDTH
 
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition, DecompositionError
@@ -146,7 +147,8 @@ class SharedMesh:
         # None of these holds this object, so that it goes with its last body, not with a later
         # search for cycles.
         self.covers_once = Once(lambda: core.covers_once(geometry.surface()))
-        self.has_sheets = Once(lambda: core.has_sheets(geometry.surface()))
+        crack = CRACK_WIDTH * file.resolution
+        self.has_sheets = Once(lambda: core.has_sheets(geometry.surface(), crack))
         self.decomposition = Once(partial(_decomposition, file, settings))
         self.shape = Once(partial(_shape, file, is_open))
 

@@ -70,8 +70,8 @@ def test_two_lattice_solids_in_one_mesh() -> None:
 def test_sheets_are_told_from_walls_and_cavities() -> None:
     """A face and its reverse: within a solid they are no sheet, outside of it they are one."""
     for solid in (CUBE.mesh(), HOLLOW.mesh(), both(CUBE.mesh(), CELL.mesh())):
-        assert not has_sheets(Surface(solid, True))
+        assert not has_sheets(Surface(solid, True), 0.0)
     triangle = ((0.5, 0.5, 0.5), (0.75, 0.5, 0.5), (0.5, 0.75, 0.5))
     sheet = mesh_of_soup((*triangle, *triangle[::-1]))
-    assert not has_sheets(Surface(both(CUBE.mesh(), sheet), True))
-    assert has_sheets(Surface(both(CUBE.mesh(), sheet.translated((9.0, 0.0, 0.0))), True))
+    assert not has_sheets(Surface(both(CUBE.mesh(), sheet), True), 0.0)
+    assert has_sheets(Surface(both(CUBE.mesh(), sheet.translated((9.0, 0.0, 0.0))), True), 0.0)

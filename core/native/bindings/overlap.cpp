@@ -109,8 +109,9 @@ predicates; points are exact intersections, each coordinate rounded once. Solid 
   m.def("covers_once", &covers_once, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(Whether all winding numbers of the solid are 0 or 1, so that its signed volume is the volume that it covers. Exact
 samples beside every piece of the surface decide.)");
-  m.def("has_sheets", &has_sheets, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
-        R"(Whether a piece of the surface has no inside on either side. Also true if a sample gives no answer.)");
+  m.def("has_sheets", &has_sheets, "solid"_a, "crack"_a, nb::call_guard<nb::gil_scoped_release>(),
+        R"(Whether a piece of the surface has no inside on either side. Also true if a sample gives no answer. crack: the width
+that makes no sheet.)");
 }
 
 }  // namespace satcheck

@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kPockets = 8;
 // Another set is made if t may be deeper in it by this share.
 constexpr double kWorthwhile = 1.0 / 64;
+// The most steps of listing all pairs in contact, about half a second.
+constexpr std::uint64_t kListingWork = 500'000'000;
 // A crossing this near to a common point, in units of its depth, counts as part of the same overlap.
 constexpr double kNear = 2;
 
@@ -100,7 +102,7 @@ class Proof {
     if (relation.triangle_a == kNoIndex || relation.triangle_b == kNoIndex) return deepest;
     std::vector<CommonPoint> tried;
     if (deepest) tried.push_back(*deepest);
-    const std::vector<ContactPair> contacts = find_contacts(moved, b, AtCrossing::go_on, &budget_).contacts;
+    const std::vector<ContactPair> contacts = contacts_with(moved, b);
     const std::size_t stride = std::max<std::size_t>(1, contacts.size() / kPockets);
     for (std::size_t k = 0; k < contacts.size(); k += stride) {
       const Corners p = corners(moved.mesh, contacts[k].a), q = corners(b.mesh, contacts[k].b);
@@ -118,6 +120,19 @@ class Proof {
       if (!deepest || common->depth > deepest->depth) deepest = common;
     }
     return deepest;
+  }
+
+  // All pairs in contact; none if they are too many. The budget of the search does not stop the list.
+  std::vector<ContactPair> contacts_with(const Surface& moved, const Surface& b) const {
+    Budget listing = Budget::that_stops(kListingWork, [&](const SearchState& state) { budget_.tell_again(state.work); });
+    std::vector<ContactPair> contacts;
+    try {
+      contacts = find_contacts(moved, b, AtCrossing::go_on, &listing).contacts;
+    } catch (const BudgetSpent&) {
+      // Other crossings only make the proof stronger.
+    }
+    budget_.spend(listing.spent());
+    return contacts;
   }
 
   std::vector<InnerRegion> regions(const Surface& solid, Vec3 seed) const {

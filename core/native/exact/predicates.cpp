@@ -20,12 +20,14 @@ namespace {
 // What rounded_normal() promises, relative to the length of the normal.
 constexpr double kNormalTolerance = 1e-14;
 
-// Measured steps of an exact determinant: of expansions of coordinates of full length; of integers times powers of two,
-// with those that each pair of their digits adds.
-constexpr std::uint64_t kDeterminantWork = 900, kDyadicWork = 500, kDigitPairWork = 6;
-// The same of a 2x2 determinant of expansions, of the three of a normal; and how many 2x2 determinants of integers times
-// powers of two cost as much as a 3x3 one.
-constexpr std::uint64_t kMinorWork = 100, kNormalWork = 250, kDyadicMinors = 8;
+// Measured steps of a determinant of expansions: of any, and of each of its terms, which are more if exponents differ.
+struct ExpansionWork {
+  std::uint64_t any, term;
+};
+constexpr ExpansionWork kDeterminantWork{700, 200}, kMinorWork{100, 50};
+// The same of integers times powers of two, with the steps that each pair of their digits adds; and how many 2x2
+// determinants cost as much as a 3x3 one.
+constexpr std::uint64_t kDyadicWork = 500, kDigitPairWork = 6, kDyadicMinors = 8;
 constexpr int kDigitBits = 32;
 
 // An unevaluated exact sum of nonoverlapping float64 terms, of increasing magnitude, none zero.
@@ -45,6 +47,13 @@ struct Expansion {
   }
   int sign() const { return size == 0 ? 0 : term[size - 1] > 0 ? 1 : -1; }
 };
+
+// The expansion, after its steps are paid.
+template <int Capacity>
+const Expansion<Capacity>& paid(const Expansion<Capacity>& e, ExpansionWork work, Budget* budget) {
+  spend(budget, work.any + work.term * static_cast<std::uint64_t>(e.size));
+  return e;
+}
 
 struct Rounded {
   double value, error;
@@ -239,8 +248,7 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3, Budge
     if (budget != nullptr) budget->spend(dyadic_work({p1, q1, p2, q2, p3, q3}));
     return dyadic_determinant(p1, q1, p2, q2, p3, q3).sign();
   }
-  spend(budget, kDeterminantWork);
-  return exact_determinant(p1, q1, p2, q2, p3, q3).sign();
+  return paid(exact_determinant(p1, q1, p2, q2, p3, q3), kDeterminantWork, budget).sign();
 }
 
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Budget* budget) { return determinant_sign(a, b, a, c, a, d, budget); }
@@ -260,10 +268,9 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis, Budget* budget) {
     const DyadicVec u = dyadic_difference(a, b), v = dyadic_difference(a, c);
     return (u[i] * v[j] - u[j] * v[i]).sign();
   }
-  spend(budget, kMinorWork);
-  return exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
-                     difference(c[j], a[j]))
-      .sign();
+  const Expansion<16> minor = exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
+                                          difference(c[j], a[j]));
+  return paid(minor, kMinorWork, budget).sign();
 }
 
 int exact_turn_sign(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
@@ -315,10 +322,10 @@ Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c, Budget* budget) {
     if (budget != nullptr) budget->spend(3 * dyadic_work({a, b, c}) / kDyadicMinors);
     return normal_of_tiny(a, b, c);
   }
-  spend(budget, kNormalWork);
   const ExactVector p = exact_difference(b, a), q = exact_difference(c, a);
-  return {exact_minor(p.y, p.z, q.y, q.z).rounded(), exact_minor(p.z, p.x, q.z, q.x).rounded(),
-          exact_minor(p.x, p.y, q.x, q.y).rounded()};
+  return {paid(exact_minor(p.y, p.z, q.y, q.z), kMinorWork, budget).rounded(),
+          paid(exact_minor(p.z, p.x, q.z, q.x), kMinorWork, budget).rounded(),
+          paid(exact_minor(p.x, p.y, q.x, q.y), kMinorWork, budget).rounded()};
 }
 
 namespace {

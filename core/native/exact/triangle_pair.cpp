@@ -5,12 +5,17 @@
 // contact, and exact segment tests decide about coplanar or collinear triangles.
 #include "exact/triangle_pair.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "exact/predicates.hpp"
 
 namespace satcheck {
 namespace {
+
+// Measured steps of two triangles, of which the plane of one does not separate them; more in one plane, or if one is a
+// line.
+constexpr std::uint64_t kNearWork = 60, kFlatWork = 90;
 
 // Closed segments on one line (or points); order along a line is lexicographic order.
 bool collinear_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
@@ -51,6 +56,20 @@ std::pair<Vec3, Vec3> extremes(const Corners& t) {
     if (coordinates_less(high, p)) high = p;
   }
   return {low, high};
+}
+
+// Whether a line along an edge of one of two triangles in a plane has the other one strictly beyond it (nearest: -1), or
+// beyond it and on it (0). Such a line exists if two convex sets have no common point, or no common area.
+bool edge_separates(const Corners& a, const Corners& b, int drop_axis, int nearest, Budget* budget) {
+  const auto edge_of = [&](const Corners& t, const Corners& other) {
+    const int turn = orientation_2d(t[0], t[1], t[2], drop_axis, budget);
+    for (int i = 0; i < 3; ++i) {
+      const auto is_beyond = [&](Vec3 p) { return turn * orientation_2d(t[i], t[(i + 1) % 3], p, drop_axis, budget) <= nearest; };
+      if (std::all_of(other.begin(), other.end(), is_beyond)) return true;
+    }
+    return false;
+  };
+  return edge_of(a, b) || edge_of(b, a);
 }
 
 bool any_edge_meets(const Corners& edges_of, const Corners& t, Budget* budget) {
@@ -170,11 +189,14 @@ TriangleContact classify(const TrianglePlane& plane, const Corners& b, Budget* b
   const std::array<int, 3> sb = sides(plane, b, budget);
   if (all_strictly_on_one_side(sb)) return TriangleContact::disjoint;
   if (common == 1 && !straddles(sb)) return TriangleContact::touching;
+  spend(budget, kNearWork);
   const std::array<int, 3> sa = sides(b, a, budget);
   if (all_strictly_on_one_side(sa)) return TriangleContact::disjoint;
   if (all_zero(sa) || all_zero(sb)) {
-    // Coplanar, or one of them is collinear.
-    const bool meet = any_edge_meets(a, b, budget) || any_edge_meets(b, a, budget);
+    spend(budget, kFlatWork);
+    const bool lines = is_collinear(a, budget) || is_collinear(b, budget);
+    const bool meet = lines ? any_edge_meets(a, b, budget) || any_edge_meets(b, a, budget)
+                            : !edge_separates(a, b, projection_axis(rounded_normal(a[0], a[1], a[2], budget)), -1, budget);
     return meet ? TriangleContact::touching : TriangleContact::disjoint;
   }
   const Lone la = from_lone_corner(a, sa), lb = from_lone_corner(b, sb);
@@ -189,19 +211,7 @@ TriangleContact classify(const TrianglePlane& plane, const Corners& b, Budget* b
 }
 
 bool share_area(const Corners& a, const Corners& b, int drop_axis, Budget* budget) {
-  // Convex sets have no common area if a line along an edge of one separates them.
-  const auto edge_parts = [&](const Corners& t, const Corners& other) {
-    const int turn = orientation_2d(t[0], t[1], t[2], drop_axis, budget);
-    for (int i = 0; i < 3; ++i) {
-      bool outside = true;
-      for (const Vec3& p : other) {
-        outside = outside && turn * orientation_2d(t[i], t[(i + 1) % 3], p, drop_axis, budget) <= 0;
-      }
-      if (outside) return true;
-    }
-    return false;
-  };
-  return !edge_parts(a, b) && !edge_parts(b, a);
+  return !edge_separates(a, b, drop_axis, 0, budget);
 }
 
 CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b, Budget* budget) {

@@ -144,15 +144,21 @@ Topology measure_sorted(const Mesh& sorted) {
   return plain ? *plain : measure_welded(sorted, EdgeTable(sorted.vertices.size(), sorted.triangles));
 }
 
+// The most steps of an inspection, about two seconds, and of each triangle in addition.
+constexpr std::uint64_t kMeshWork = 2'000'000'000, kWorkOfTriangle = 100'000;
+
+Budget budget_of_inspection(const Mesh& mesh, const Poll& poll) {
+  return Budget::that_stops(std::min(kMeshWork + kWorkOfTriangle * mesh.triangles.size(), kMostSteps), poll);
+}
+
 bool has_boundary(const Topology& topology) { return !topology.closed || !topology.oriented; }
 
 // Without those of flat parts.
-std::vector<Hole> holes_of(const Inspection& inspection, const Poll& poll) {
+std::vector<Hole> holes_of(const Inspection& inspection, Budget& budget) {
   if (!inspection.doubtful && !has_boundary(inspection.repaired)) return {};
   Mesh mesh = inspection.mesh;
   double_triangles(mesh, flat_parts(inspection.mesh));
   if (!inspection.doubtful) return find_holes(mesh);
-  Budget budget = Budget::that_stops(kMostSteps, poll);
   return find_holes(mesh, facing_of(inspection.mesh, &budget).doubtful);
 }
 
@@ -162,8 +168,7 @@ Inspection sealed(Inspection given, double width, Budget& budget) {
   return given;
 }
 
-void orient_mesh(Inspection& result, const Poll& poll) {
-  Budget budget = Budget::that_stops(kMostSteps, poll);
+void orient_mesh(Inspection& result, Budget& budget) {
   result.doubtful = false;
   Mesh oriented = orient(result.mesh, &budget, &result.doubtful);
   if (oriented.triangles != result.mesh.triangles || oriented.vertices != result.mesh.vertices) {
@@ -183,21 +188,22 @@ Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll) {
   result.mesh = weld_and_sort(mesh);
   result.topology = result.repaired = measure_sorted(result.mesh);
   if (result.topology.is_plain_solid()) return result;
-  if (orient_it && result.topology.closed) orient_mesh(result, poll);
-  result.holes = holes_of(result, poll);
+  Budget budget = budget_of_inspection(result.mesh, poll);
+  if (orient_it && result.topology.closed) orient_mesh(result, budget);
+  result.holes = holes_of(result, budget);
   return result;
 }
 
 Inspection with_cracks_closed(Inspection given, bool orient_it, double width, const Poll& poll) {
   if (!has_boundary(given.repaired)) return given;
-  Budget budget = Budget::that_stops(kMostSteps, poll);
+  Budget budget = budget_of_inspection(given.mesh, poll);
   Inspection result = sealed(given, width, budget);
   if (orient_it && !result.repaired.oriented) {
-    orient_mesh(given, poll);
+    orient_mesh(given, budget);
     result = sealed(std::move(given), width, budget);
   }
-  if (orient_it) orient_mesh(result, poll);
-  result.holes = holes_of(result, poll);
+  if (orient_it) orient_mesh(result, budget);
+  result.holes = holes_of(result, budget);
   return result;
 }
 

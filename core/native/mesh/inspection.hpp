@@ -21,8 +21,8 @@ struct Inspection {
   std::vector<Hole> holes; // of `mesh`, the largest first
 };
 
-// Both throw BudgetSpent if orienting, or closing cracks, takes more than kMostSteps. poll: called now and then. A mesh with a boundary is
-// oriented by with_cracks_closed().
+// Both throw BudgetSpent if orienting the mesh, closing its cracks and finding its holes take more steps than a mesh may
+// (at most kMostSteps). poll: called now and then. A mesh with a boundary is oriented by with_cracks_closed().
 Inspection inspect(MeshView mesh, bool orient_it, const Poll& poll = {});
 
 // Closes the cracks of the mesh. width: points this close may be the same point.

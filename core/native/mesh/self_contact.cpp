@@ -14,6 +14,9 @@
 namespace satcheck {
 namespace {
 
+// Measured steps of two triangles of a mesh whose boxes meet.
+constexpr std::uint64_t kPartnerWork = 120;
+
 // The corners of t in an order that starts with those it shares with u.
 struct SharedFirst {
   Triangle corner;
@@ -90,6 +93,7 @@ bool has_irregular_partners(const Surface& surface, std::uint32_t t, Budget* bud
   const Mesh& mesh = surface.mesh;
   const MeshTriangle triangle(mesh, t, budget);
   return !visit_box(surface.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t u) {
+    spend(budget, kPartnerWork);
     return u == t || is_collinear(corners(mesh, u), budget) || !triangle.has_more_in_common_with(u);
   }, budget);
 }

@@ -37,11 +37,18 @@ std::uint32_t way_of(const Corners& c) {
 }
 constexpr std::uint32_t kOpposite = 26, kNoWay = 13;
 
+// Of triangles that are no wider than a crack, as those that close one: none.
+std::uint32_t way_of_wide(const Corners& c, double crack) {
+  const Vec3 u = c[1] - c[0], v = c[2] - c[0];
+  const double longest = std::max({norm(u), norm(v), norm(c[2] - c[1])});
+  return norm(cross(u, v)) <= crack * longest ? kNoWay : way_of(c);
+}
+
 // The triangles near which others face the opposite way, by the signs of their normals. Most of a smooth surface faces
 // the same way as all that is near, so that whole nodes of its tree are left out.
 class OppositeWays {
  public:
-  explicit OppositeWays(const Surface& solid) : solid_(solid), ways_(solid.bvh.nodes.size()), opposite_(ways_.size()) {
+  OppositeWays(const Surface& solid, double crack) : solid_(solid), ways_(solid.bvh.nodes.size()), opposite_(ways_.size()) {
     const auto& nodes = solid.bvh.nodes;
     for (std::size_t n = nodes.size(); n-- > 0;) {  // children come after their parents
       if (!nodes[n].is_leaf()) {
@@ -49,7 +56,7 @@ class OppositeWays {
         opposite_[n] = opposite_[nodes[n].first] | opposite_[nodes[n].first + 1];
       }
       for (std::uint32_t i = nodes[n].first; i < nodes[n].first + nodes[n].count; ++i) {
-        const std::uint32_t way = way_of(corners(solid.mesh, solid.bvh.order[i]));
+        const std::uint32_t way = way_of_wide(corners(solid.mesh, solid.bvh.order[i]), crack);
         if (way == kNoWay) continue;
         ways_[n] |= 1u << way;
         opposite_[n] |= 1u << (kOpposite - way);
@@ -98,18 +105,18 @@ class OppositeWays {
 
 // Whether two triangles that may overlap lie in one plane and face away from each other. Winding numbers differ by one
 // across a triangle, so that only the other triangles of its plane can make both sides equal.
-bool has_opposite_triangles(const Surface& solid) {
+bool has_opposite_triangles(const Surface& solid, double crack) {
   const Mesh& mesh = solid.mesh;
   if (mesh.triangles.empty()) return false;
-  for (const auto& [p, q, r] : OppositeWays(solid).triangles()) {
+  for (const auto& [p, q, r] : OppositeWays(solid, crack).triangles()) {
     const Corners c{mesh.vertices[p], mesh.vertices[q], mesh.vertices[r]};
-    const std::uint32_t way = way_of(c);
+    const std::uint32_t way = way_of_wide(c, crack);
     if (way == kNoWay) continue;
     const TrianglePlane plane(c[0], c[1], c[2]);
     const bool none = visit_box(solid.bvh, mesh, bounds_of(c), [&](std::uint32_t other) {
       const Corners d = corners(mesh, other);
       const auto in_plane = [&](Vec3 p) { return plane.side(p) == 0; };
-      return way_of(d) != kOpposite - way || !std::all_of(d.begin(), d.end(), in_plane);
+      return way_of_wide(d, crack) != kOpposite - way || !std::all_of(d.begin(), d.end(), in_plane);
     });
     if (!none) return true;
   }
@@ -123,8 +130,8 @@ bool covers_once(const Surface& solid) {
   return holds_beside_all(solid, [&](const Beside& b) { return at_most_once(b.front) && at_most_once(b.back); });
 }
 
-bool has_sheets(const Surface& solid) {
-  return has_opposite_triangles(solid) && !holds_beside_all(solid, [](const Beside& b) { return !b.is_sheet(); });
+bool has_sheets(const Surface& solid, double crack) {
+  return has_opposite_triangles(solid, crack) && !holds_beside_all(solid, [](const Beside& b) { return !b.is_sheet(); });
 }
 
 }  // namespace satcheck

@@ -14,9 +14,11 @@
 namespace satcheck {
 namespace {
 
-// The most steps of a pair, about five seconds, and of each triangle in addition. Triangles that meet in an orderly way
+// The most steps of a pair, three to four seconds, and of each triangle in addition. Triangles that meet in an orderly way
 // take a few thousand.
-constexpr std::uint64_t kPairWork = 5'000'000'000, kWorkOfTriangle = 200'000;
+constexpr std::uint64_t kPairWork = 3'500'000'000, kWorkOfTriangle = 100'000;
+// Of these a question of a search may take one part in so many.
+constexpr std::uint64_t kShareInSearch = 8;
 
 // The triangles by coordinates, each rotated to start at its least corner.
 std::vector<Corners> canonical_triangles(const Mesh& mesh, bool keep_winding) {
@@ -223,6 +225,10 @@ Budget budget_of_pair(const Mesh& a, const Mesh& b, Poll poll, std::uint64_t mos
   return Budget::that_stops(std::min({kPairWork + kWorkOfTriangle * triangles, kMostSteps, most}), std::move(poll));
 }
 
+Budget budget_in_search(const Mesh& a, const Mesh& b, Poll poll) {
+  return Budget::that_stops(budget_of_pair(a, b, {}).left() / kShareInSearch, std::move(poll));
+}
+
 MeshRelation mesh_relation(const Surface& a, const Surface& b, Budget& budget) {
   const std::uint64_t before = budget.spent();
   MeshRelation result = within_budget([&] { return relation_of(a, b, Wanted::relation, budget); });
@@ -239,7 +245,7 @@ MeshRelation overlap_relation(const Surface& a, const Surface& b, Budget* budget
   const Poll poll = [&](const SearchState& state) {
     if (budget != nullptr) budget->tell_again(state.work);
   };
-  Budget steps = budget_of_pair(a.mesh, b.mesh, poll);
+  Budget steps = budget_in_search(a.mesh, b.mesh, poll);
   const MeshRelation result = within_budget([&] { return relation_of(a, b, Wanted::overlap, steps); });
   spend(budget, steps.spent());
   return result;

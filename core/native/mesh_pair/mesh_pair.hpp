@@ -49,6 +49,8 @@ struct MeshRelation {
 // The steps that a question about a pair may take, with room for each triangle. It stops. poll: called now and then.
 // most: a limit of these steps.
 Budget budget_of_pair(const Mesh& a, const Mesh& b, Poll poll, std::uint64_t most = kNoEnd);
+// The same for one question of a search, which asks more than one: an eighth.
+Budget budget_in_search(const Mesh& a, const Mesh& b, Poll poll);
 
 // Not decided if the budget, which stops, is spent on the way.
 MeshRelation mesh_relation(const Surface& a, const Surface& b, Budget& budget);

@@ -193,7 +193,7 @@ BoxAlong box_around(const OverlapComponent& component) {
 ComponentSearch::ComponentSearch(const Surface& a, const Surface& b, const ThicknessGoal& goal, const ThicknessInterval& known)
     : goal_(goal), budget_(goal.work, goal.poll) {
   budget_.note(known.lower, known.upper);
-  Budget of_pair = budget_of_pair(a.mesh, b.mesh, [this](const SearchState& state) { budget_.tell_again(state.work); });
+  Budget of_pair = budget_in_search(a.mesh, b.mesh, [this](const SearchState& state) { budget_.tell_again(state.work); });
   overlap_ = overlap_components(a, b, kMostPairs, Unresolved::left_out, &of_pair);
   if (!resolved()) return;
   balls_ = component_balls(a, b, overlap_);

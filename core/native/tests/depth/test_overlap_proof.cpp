@@ -57,6 +57,19 @@ void sets_of_boxes() {
   CHECK(proven > tried / 2);
 }
 
+// Copies of a box cross copies of another one, each with each.
+void many_contacts_are_not_listed() {
+  const WholeBoxes boxes_a(500, WholeBox{{0, 0, 0}, {2, 2, 2}}), boxes_b(500, WholeBox{{1, 1, 1}, {3, 3, 3}});
+  const Surface a = make_surface(mesh_of(boxes_a), true), b = make_surface(mesh_of(boxes_b), true);
+  Budget budget;
+  const OverlapProof proof = prove_overlap(a, a, b, {}, overlap_relation(a, b), Overlaps::thickest, false, budget);
+  CHECK(proof.set.exit({}).depth > 0);
+  CHECK(budget.spent() < 1'000'000'000);
+}
+
 }  // namespace
 
-UNIT(overlap_proof) { sets_of_boxes(); }
+UNIT(overlap_proof) {
+  sets_of_boxes();
+  many_contacts_are_not_listed();
+}

@@ -2,6 +2,9 @@
 // float64 can tell costs nothing.
 #include "base/budget.hpp"
 
+#include <cmath>
+#include <random>
+
 #include "exact/exact_point.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
@@ -37,6 +40,34 @@ void test_signs() {
   CHECK(work_in_plane(1e-100) > work_in_plane(0.1));
 }
 
+// Of the fourth corner of a parallelogram whose coordinates have exponents up to this one.
+std::uint64_t work_with_exponents(int most) {
+  std::mt19937 generator(3);
+  const auto coordinate = [&] {
+    return std::ldexp(std::uniform_real_distribution<double>(-1, 1)(generator), std::uniform_int_distribution<int>(-most, most)(generator));
+  };
+  std::uint64_t work = 0;
+  for (int k = 0; k < 1000; ++k) {
+    Vec3 p[3];
+    for (Vec3& corner : p) corner = {coordinate(), coordinate(), coordinate()};
+    work += work_of([&](Budget* budget) { orientation(p[0], p[1], p[2], p[1] + p[2] - p[0], budget); });
+  }
+  return work;
+}
+
+// Expansions have more terms.
+void test_signs_of_mixed_exponents() { CHECK(work_with_exponents(140) > 2 * work_with_exponents(0)); }
+
+// Float64 decides, but slowly: the triangles lie in one plane, or their planes do not separate them.
+void test_near_triangles() {
+  const Corners low{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}}, beside{Vec3{5, 0, 0}, Vec3{9, 0, 0}, Vec3{5, 4, 0}};
+  const Corners through{Vec3{1, 1, -1}, Vec3{1, 1, 1}, Vec3{1, 2, 1}}, above{Vec3{0, 0, 1}, Vec3{4, 0, 1}, Vec3{0, 4, 1}};
+  const auto work_with = [&](const Corners& other) { return work_of([&](Budget* budget) { classify(low, other, budget); }); };
+  CHECK(work_with(above) == 0);
+  CHECK(work_with(through) > 0);
+  CHECK(work_with(beside) > work_with(through));
+}
+
 void test_signs_in_a_plane() {
   const auto works = [](Vec3 a, Vec3 b, Vec3 c) {
     const std::uint64_t of_sign = work_of([&](Budget* budget) { orientation_2d(a, b, c, 2, budget); });
@@ -68,6 +99,8 @@ void test_points() {
 
 UNIT(exact_work) {
   test_signs();
+  test_signs_of_mixed_exponents();
+  test_near_triangles();
   test_signs_in_a_plane();
   test_points();
 }

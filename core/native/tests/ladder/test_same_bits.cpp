@@ -17,7 +17,7 @@ using namespace satcheck::testing;
 
 namespace {
 
-constexpr std::uint64_t kPinned = 0x9cc08ef2cb277dae;
+constexpr std::uint64_t kPinned = 0xeceafaf220092c2e;
 constexpr int kConvexPairs = 2600, kMeshPairs = 500, kMotions = 300;
 
 // FNV-1a (Fowler, Noll, Vo 1991) of the bits, with one zero and one NaN.
