@@ -31,6 +31,7 @@ class Delivery(Struct, frozen=True):
     """What is written, and how the exit code is made. timings: state times. top: how many rows a
     table lists at most. explain: the steps of each pair. parts: a page shows the convex parts of
     bodies. pose: a picture shows this one of several; None: a page all of them, another the worst.
+    shows: standard output gets a document.
     """
 
     targets: tuple[Target, ...]
@@ -41,6 +42,7 @@ class Delivery(Struct, frozen=True):
     explain: bool = False
     parts: bool = False
     pose: int | None = None
+    shows: bool = True
 
     @property
     def forms(self) -> set[str]:
@@ -78,7 +80,7 @@ def rendered(
 def deliver(document: Document, result: Report | SamplesReport, scene: Scene, to: Delivery) -> None:
     """Write the documents, and say on stderr what none of them shows. Pictures come last: one that
     cannot be made costs no report."""
-    shown = [target for target in to.targets if target.output is not None or not to.quiet]
+    shown = [target for target in to.targets if target.output is not None or to.shows]
     shown.sort(key=lambda target: kind_of(target.form) == "picture")
     for form, output in shown:
         document.deliver(partial(rendered, result, scene, form, to), output, utf8=form != "table")

@@ -295,7 +295,8 @@ def deliver_assets(
         illustrated = with_pictures(worst, drawing)
     for form, output in to.targets:
         # Where no asset changed, stderr says so.
-        if output is None and (to.quiet or (form == "table" and not (len(stored) or seen.issues))):
+        is_blank = form == "table" and not (len(stored) or seen.issues)
+        if output is None and (is_blank or not to.shows):
             continue
         if form == "html":
             document.deliver(lambda _: worst_page.render(seen, illustrated), output, utf8=True)

@@ -158,7 +158,14 @@ def command(
     return check_worlds(
         worlds,
         check_options(inputs, options, baseline, config),
-        Delivery(targets, quiet, exit_zero, options["timings"], top),
+        Delivery(
+            targets,
+            quiet,
+            exit_zero,
+            options["timings"],
+            top,
+            shows=bool(outputs) or not quiet,
+        ),
         Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"])),
         complete=since is None and shard.count == 1,
         results=results,

@@ -211,7 +211,13 @@ def command(
     options["part_seconds"] = inputs.limit["body-seconds"]
     refuse_early(inputs, outputs, baseline)
     to = Delivery(
-        targets_of(form, outputs, FORMATS), quiet, exit_zero, options["timings"], top, explain
+        targets_of(form, outputs, FORMATS),
+        quiet,
+        exit_zero,
+        options["timings"],
+        top,
+        explain,
+        shows=bool(outputs) or not quiet,
     )
     refuse_certificate(to.forms, wanted=options["certificate"])
     pictures = [form for form in to.forms if kind_of(form) == "picture"]

@@ -57,6 +57,14 @@ def test_quiet_prints_nothing_and_writes_the_report(tmp_path: Path) -> None:
     assert json.loads(output.read_text())["summary"]["verdict"] == "fail"
 
 
+def test_quiet_writes_the_document_that_is_asked_for_on_standard_output() -> None:
+    asked = satcheck(*PUSHED, "-q", "-o", "-", "--format", "json")
+    assert (asked.code, asked.document["summary"]["verdict"]) == (1, "fail")
+    assert satcheck(*PUSHED, "-q", "--format", "json").out == ""
+    assert "relation" in satcheck("batch", *PUSHED, "-q", "-o", "-", "--format", "csv").out
+    assert satcheck("batch", *PUSHED, "-q").out == ""
+
+
 def test_ascii_where_the_encoding_has_no_more() -> None:
     ran = satcheck(*PUSHED, env={"PYTHONUTF8": "0", "PYTHONIOENCODING": "ascii"})
     assert ran.code == 1

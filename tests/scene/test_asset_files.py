@@ -112,6 +112,16 @@ def test_a_scene_of_another_version_is_an_asset(tmp_path: Path, schema: str) -> 
     assert asset_files([str(tmp_path)]).files == [(tmp_path / "a.json").as_posix()]
 
 
+def test_a_report_is_no_asset(tmp_path: Path) -> None:
+    """It has bodies, which name files, as a scene."""
+    (tmp_path / "a.obj").touch()
+    bodies = '[{"id": "a", "mesh": "a.obj"}]'
+    (tmp_path / "r.json").write_text(f'{{"schema": "satcheck.report/1", "bodies": {bodies}}}')
+    assert asset_files([str(tmp_path)]).files == [(tmp_path / "a.obj").as_posix()]
+    (tmp_path / "s.json").write_text(f'{{"bodies": {bodies}}}')
+    assert (tmp_path / "s.json").as_posix() in asset_files([str(tmp_path)]).files
+
+
 @pytest.mark.parametrize(
     ("name", "known"),
     [
