@@ -111,7 +111,7 @@ Shape make_triangle(const std::array<Vec3, 3>& corners) {
   // The order of convex_hull(): counter-clockwise along the axis that is dropped, from the least point on.
   std::array<Vec3, 3> p = corners;
   std::sort(p.begin(), p.end(), coordinates_less);
-  const int axis = projection_axis(p[0], p[2], p[1]);
+  const int axis = projection_axis(rounded_normal(p[0], p[2], p[1]));
   const int i = axis == 2 ? 0 : axis + 1, j = axis == 0 ? 2 : axis - 1;
   const auto least = std::min_element(p.begin(), p.end(), [&](Vec3 u, Vec3 v) { return u[i] != v[i] ? u[i] < v[i] : u[j] < v[j]; });
   std::rotate(p.begin(), least, p.end());
