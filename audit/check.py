@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from msgspec import UNSET, UnsetType
 from msgspec.structs import replace
@@ -55,9 +55,8 @@ if TYPE_CHECKING:
     from satcheck.core.peers import Peers, VolumeMeter
     from satcheck.report.baseline import UndecidedBy
     from satcheck.report.regions import Regions
+    from satcheck.report.request import Request
     from satcheck.report.statics import Statics
-
-    Tools: TypeAlias = tuple[VolumeMeter | None, Peers | None]
 
 DEFAULT_SETTINGS = Settings()
 
@@ -102,13 +101,11 @@ def check(
 
         movers = Movers(scene, bodies, planner)
     close = ClosePairs(bodies, planner) if movers is None else movers.close()
-    budget, keep = StepsOfScene(), cache is not None
-    with _tools(planner) as tools:
-        pairs, examined, unexamined = _examined(
-            bodies, close, planner, movers, tools, progress, budget, keep=keep
-        )
-        if any(pair.draft is not None for pair in examined):
-            examined = with_figures(examined, settings, budget.left, keep=keep)
+    pairs, examined, unexamined = _examined(
+        bodies, close, planner, movers, progress, keep=cache is not None
+    )
+    if any(pair.draft is not None for pair in examined):
+        examined = with_figures(examined, settings, keep=cache is not None)
     return _report(scene, bodies, planner, movers, pairs, examined, unexamined)
 
 
@@ -124,7 +121,7 @@ def check_meshes_of(scene: Scene, settings: Settings) -> Finding:
         reach = planner.reach({0: a.resolution, 1: b.resolution})
         if core.box_gap(a.bounds, b.bounds) <= sum(reach):
             request = planner.request(0, 1)
-            with _tools(planner) as tools:
+            with _tools(settings, [request]) as tools:
                 pair = Pair(a, b, settings, request, *tools, alone=True)
                 examined[0, 1] = examine_pair(pair)
     (finding,) = _findings(bodies, [*examined], [*examined.values()], planner)
@@ -256,27 +253,24 @@ def _examined(
     close: ClosePairs,
     planner: Planner,
     movers: Movers | None,
-    tools: Tools,
     progress: Progress | None,
-    budget: StepsOfScene,
     *,
     keep: bool,
 ) -> tuple[list[IndexPair], list[CheckedPair], int]:
-    """Return close pairs, up to the block in which ENOUGH_FAILURES are reached, or as many that
-    meet as a scene may have, what is found of each, and the number of close pairs after them. A
-    pair for which the steps of the scene do not suffice counts as a failure. keep: later checks
-    need the data of the bodies."""
+    """Return close pairs, up to the block in which as many fail, or meet, as may in a scene; what
+    is found of each; and the number of close pairs after them. A pair for which the steps of the
+    scene do not suffice counts as a failure. keep: later checks need the data of the bodies."""
     pairs: list[IndexPair] = []
     examined: list[CheckedPair] = []
     failures = meetings = 0
-    most_meetings = ENOUGH_FAILURES + MEETINGS_OF_BODY * len(bodies.placed)
-    blocks = close.blocks(BLOCK)
+    most_meetings = ENOUGH_FAILURES + MEETINGS_OF_BODY * len(bodies.ids)
+    budget, blocks = StepsOfScene(), close.blocks(BLOCK)
     block, after = next(blocks, []), next(blocks, [])
     total = close.count() if after else len(block)
     while block and failures < ENOUGH_FAILURES and meetings < most_meetings:
         told = None if progress is None else _counting_on(progress, len(pairs), total)
         kept = keep or bool(after)
-        found = _examined_together(bodies, block, planner, movers, tools, told, budget, keep=kept)
+        found = _examined_together(bodies, block, planner, movers, told, budget, keep=kept)
         pairs += block
         examined += found
         fail_on = planner.settings.fail_on
@@ -303,30 +297,32 @@ def _examined_together(
     close: list[IndexPair],
     planner: Planner,
     movers: Movers | None,
-    tools: Tools,
     progress: Progress | None,
     budget: StepsOfScene,
     *,
     keep: bool,
 ) -> list[CheckedPair]:
     settings = planner.settings
-    alone, shares = len(close) == 1 and not keep, len(close) > 1
-    pairs = []
-    for i, j in close:
-        a, b, request = bodies.placed[i], bodies.placed[j], planner.request(i, j)
-        pairs.append(Pair(a, b, settings, request, *tools, alone=alone, shares=shares))
-    if movers is not None:
-        movers.add_sweeps(pairs)
-    return examine_pairs(pairs, settings.jobs, progress, budget=budget, keep=keep)
+    requests = [planner.request(i, j) for i, j in close]
+    with _tools(settings, requests) as tools:
+        alone = len(close) == 1 and not keep
+        pairs = [
+            Pair(bodies.placed[i], bodies.placed[j], settings, request, *tools, alone=alone)
+            for (i, j), request in zip(close, requests, strict=True)
+        ]
+        if movers is not None:
+            movers.add_sweeps(pairs)
+        return examine_pairs(pairs, settings.jobs, progress, budget=budget, keep=keep)
 
 
 @contextmanager
-def _tools(planner: Planner) -> Iterator[Tools]:
-    """The other libraries that the pairs of a check need."""
-    settings = planner.settings
+def _tools(
+    settings: Settings, requests: Sequence[Request]
+) -> Iterator[tuple[VolumeMeter | None, Peers | None]]:
+    """The other libraries that pairs with these requests need."""
     with ExitStack() as stack:
         meter = peers = None
-        if planner.requested_by("volume"):
+        if any(request.wants("volume") for request in requests):
             meter = stack.enter_context(volume_meter(settings))
         if settings.cross_check:
             from satcheck.core.peers import Peers

@@ -17,11 +17,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.draft import Draft, indeterminate
-from satcheck.audit.finding import examine, measure
+from satcheck.audit.finding import examine
 from satcheck.audit.pair import (
     MOST_STEPS,
     STEPS_OF_COPIED_TRIANGLE,
@@ -153,7 +152,7 @@ def _examined_within(
     pair may take."""
     for k in order:
         pairs[k].steps = steps
-    leaving, held = {} if keep else _leaving(pairs, order), Held()
+    leaving, held = {} if keep else _leaving(pairs, order), _Held()
     for k, checked in _careful(pairs, order) if is_careful() else _batched(pairs, order, jobs):
         yield k, checked
         held.use(pairs[k].a, pairs[k].b)
@@ -161,7 +160,7 @@ def _examined_within(
             held.release(body)
 
 
-class Held:
+class _Held:
     """Bodies whose data are in memory, the least recently used first."""
 
     def __init__(self) -> None:
@@ -282,18 +281,9 @@ def examine_pair(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     """Return the finding of one pair. A failure becomes a finding."""
     draft = Draft(pair)
     try:
-        shared = pair.request.shared if pair.shares and not pair.curved else ()
-        if shared:
-            by = {effect: who for effect, who in pair.request.by.items() if effect not in shared}
-            draft.pair = replace(pair, request=replace(pair.request, by=by))
         finding = examine(draft, climb)
-        draft.pair = pair
-        is_known = finding.relation != "indeterminate" or "depth" in shared
-        if shared and draft.exact in OVERLAPS and is_known:
-            draft.waits = not pair.both_convex
-            finding = finding if draft.waits else measure(draft, shared)
         fails_now = finding.relation in OVERLAPS and fails(finding, pair.settings.fail_on)
-        if draft.waits or (pair.request.if_failing and fails_now):
+        if pair.request.if_failing and fails_now:
             return CheckedPair(finding, (), draft, draft.steps, draft.wants_more)
         return finished(finding, draft)
     except Exception as error:  # noqa: BLE001  the other pairs are still checked

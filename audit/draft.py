@@ -130,7 +130,6 @@ class Draft(Struct, eq=False):
     requested. disputed: the answer of another library that contradicts the relation. work: steps of
     the searches for the depth and the thickness. reason_code: why the relation is open, where the
     input is the cause. steps: of the climb. wants_more: with more of them it may prove more.
-    waits: for figures that share the steps of the scene.
     """
 
     pair: Pair
@@ -165,7 +164,6 @@ class Draft(Struct, eq=False):
     reason_code: UndecidedBy | None = None
     steps: int = 0
     wants_more: bool = False
-    waits: bool = False
 
     def record(self, stage: str, result: str, detail: str = "", earlier: int = 0) -> None:
         """Add a stage that has ended now. earlier: nanoseconds that it ran before the last one."""

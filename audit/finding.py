@@ -6,7 +6,7 @@ An overlap has no gap, so it keeps no clearance. What decides `touching` is `rep
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from contextlib import nullcontext
 from time import perf_counter_ns
 from typing import TYPE_CHECKING
@@ -80,17 +80,16 @@ def examine(draft: Draft, climb: Climb | None = None) -> Finding:
     return _judged_draft(draft) if undecided is None else draft.indeterminate(undecided)
 
 
-def measure(draft: Draft, effects: Collection[Effect]) -> Finding:
-    """Return the finding of a drafted overlap with these figures, for which its request asks by
-    now."""
+def measure(draft: Draft) -> Finding:
+    """Return the finding of a drafted overlap with the depth and the thickness that its request
+    asks for by now."""
     draft.since = perf_counter_ns()
-    undecided = _find_overlap(draft) if "depth" in effects else None
+    wants = draft.pair.request.wants
+    undecided = _find_overlap(draft) if wants("depth") and draft.depth is None else None
     if undecided is not None:
         return draft.indeterminate(undecided)
-    if "thickness" in effects:
+    if wants("thickness") and draft.thickness is None:
         measure_thickness(draft)
-    if "volume" in effects:
-        measure_volume(draft)
     return _judged_draft(draft)
 
 

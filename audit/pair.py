@@ -64,8 +64,7 @@ class Pair(Struct, eq=False):
     may be off: half the tolerance, or the surface tolerance of the body if that is more. closer:
     with --planar, how much closer (or deeper) the bodies may be than their polygons, which lie
     within them; else 0.0. moves: the relative motion of the bodies; None: they do not move.
-    alone: no other pair needs these bodies. shares: its figures wait until all relations are known
-    (`figures.py`). work: the most steps of a search of the depth; 0: those
+    alone: no other pair needs these bodies. work: the most steps of a search of the depth; 0: those
     of the settings. steps: the most of the climb, beside those that any pair may take. moved_steps:
     spent on the relations of moved bodies; sweep_steps: on the sweep; explain_steps: on whether
     surfaces that may be off explain the overlap.
@@ -79,7 +78,6 @@ class Pair(Struct, eq=False):
     peers: Peers | None = None
     moves: Moves | None = None
     alone: bool = False
-    shares: bool = False
     work: int = 0
     steps: int = MOST_STEPS
     moved_steps: int = 0

@@ -150,11 +150,6 @@ def request_for(
             for effect, setting in wanted.items()
             if by_failing and setting is None and not by[effect]
         ),
-        shared=tuple(
-            effect
-            for effect, key in KEY_OF_EFFECT.items()
-            if effect != "distance" and by[effect] and by[effect] in (request.rule(key), FOR_MESHES)
-        ),
     )
 
 

@@ -219,8 +219,8 @@ def stopped_early(unexamined: int) -> Iterator[Issue]:
     if unexamined:
         message = (
             f"{unexamined:,} close pairs were not examined and count as indeterminate: "
-            f"more than {ENOUGH_FAILURES:,} others fail, take more steps than the scene leaves, or "
-            f"meet beside {MEETINGS_OF_BODY} for each body: bodies lie in one place"
+            f"more than {ENOUGH_FAILURES:,} others fail, or take more steps than the scene leaves, "
+            f"or that many, and {MEETINGS_OF_BODY} for each body, touch or overlap"
         )
         yield Issue(STOPPED_EARLY, "note", None, None, message)
 
@@ -363,6 +363,6 @@ def _why_not(
         return FAILED
     if effect == "distance":
         return OVERLAP if (finding.exact_relation or finding.at_rest) in OVERLAPS else FAR
-    if effect in ("depth", "thickness", "volume") and finding.at_rest in OVERLAPS:
-        return NO_ANSWER if effect == "thickness" and "depth" in done else BEYOND_BUDGET
+    if effect in ("depth", "thickness") and finding.at_rest in OVERLAPS:
+        return NO_ANSWER if "depth" in done else BEYOND_BUDGET
     return NO_OVERLAP

@@ -24,11 +24,10 @@ _FCL_SERVER: Final = "satcheck.core.fcl_server"
 
 class OverlapVolume(Struct, frozen=True):
     """volume: in float64. error: the largest change of the volume if both surfaces move by the
-    tolerance of the Boolean. It is an estimate and not a proof. triangles: of the results."""
+    tolerance of the Boolean. It is an estimate and not a proof."""
 
     volume: float
     error: float
-    triangles: int
 
 
 class VolumeMeter:
@@ -63,7 +62,7 @@ class VolumeMeter:
         answer = self._answer("volume", a, b)
         scale = 3 * answer["exponent"]
         volume = math.ldexp(answer["volume"], scale)
-        return OverlapVolume(volume, math.ldexp(answer["error"], scale), answer["triangles"])
+        return OverlapVolume(volume, math.ldexp(answer["error"], scale))
 
     def common(self, a: Mesh, b: Mesh) -> Mesh | None:
         """The surface of the overlap of two solids; None: it is empty. Conditions and errors are

@@ -44,9 +44,8 @@ class Request(Struct, frozen=True):
     """Lengths and volumes are in units of the scene.
 
     by: effect -> the flag or rule that requests it; no entry: it is not requested. if_failing:
-    effects that are requested if the pair fails, within a budget of the scene. shared: effects of
-    `by` that no flag requests, within the steps that the relations of a scene leave. clearance:
-    None: no clearance is required. tolerance: None: the input precision. max_depth, max_thickness,
+    effects that are requested if the pair fails, within a budget of the scene. clearance: None: no
+    clearance is required. tolerance: None: the input precision. max_depth, max_thickness,
     max_volume: limits of an overlap. severity: of the errors of the pair; None: the default. rules:
     key -> the name of the rule, or of the option, that set it. across: in a check in a plane, the
     axis across it.
@@ -54,7 +53,6 @@ class Request(Struct, frozen=True):
 
     by: Mapping[Effect, str] = {}
     if_failing: tuple[Effect, ...] = ()
-    shared: tuple[Effect, ...] = ()
     clearance: float | None = None
     tolerance: float | None = None
     max_depth: float | None = None

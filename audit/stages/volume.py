@@ -14,8 +14,6 @@ from satcheck.report.judge import is_within
 # edges with 9 roundings each, as much again for the sum, divided by six. So the error for each
 # triangle is this number of roundoffs of the volume of the box.
 VOLUME_ROUNDOFFS = 18
-# Steps for each triangle of a Boolean, if most of them come from crossings.
-STEPS_OF_RESULT_TRIANGLE = 5_000
 # The code of a mesh that manifold3d cannot use.
 REFUSED = "volume-refused"
 
@@ -80,7 +78,6 @@ def _estimated(draft: Draft) -> tuple[float, float]:
         return own
     assert pair.meter is not None
     common = pair.meter.measure(pair.a.mesh, pair.b.mesh)
-    draft.work += STEPS_OF_RESULT_TRIANGLE * common.triangles
     detail = f"by manifold3d in a child process, off by about {common.error:.1g} at most"
     draft.record("volume", "measured", detail)
     return max(common.volume, 0.0), common.error

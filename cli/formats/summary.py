@@ -12,7 +12,7 @@ from msgspec import Struct, field
 from satcheck.audit.acceptance import words_to_accept
 from satcheck.audit.messages import is_unsure, of_command
 from satcheck.audit.words import counted, is_hit, is_unusable, number
-from satcheck.report.report import BEYOND_BUDGET, CROSS_CHECK, OVERLAPS, RELATIONS
+from satcheck.report.report import CROSS_CHECK, OVERLAPS, RELATIONS
 from satcheck.report.verdict import exempt_by, is_failure
 from satcheck.scene.bodies import UNITS_UNKNOWN
 
@@ -243,8 +243,6 @@ def _open(report: Report) -> Iterator[str]:
         yield from words
     elif any(map(_has_no_thickness, asked)):
         yield "--max-depth, or max_depth of a rule, limits what has no thickness"
-    elif any(BEYOND_BUDGET in (f.reason or "") for f in asked):
-        yield "--depth (and --volume, for max_volume) measures all pairs"
     elif any(f.undecided == "limit" and f.at_rest in OVERLAPS for f in asked):
         yield "a larger --budget may decide it"
     else:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from pathlib import Path
 
 import pytest
@@ -10,7 +9,7 @@ from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check, figures
 from satcheck.audit.samples import check_poses
-from satcheck.report.report import BEYOND_BUDGET, Effect, Finding
+from satcheck.report.report import BEYOND_BUDGET, Finding
 from satcheck.scene import Rule, Scene, Selector, load_scene
 from satcheck.scene.robot import posed, read_path, read_poses, with_joint_path
 from tests.audit.shapes import bracket, placed_scene, pose, unit_box, write
@@ -121,35 +120,15 @@ def test_many_poses_are_measured_on_request_only() -> None:
     assert not measured(check(path))
 
 
-@pytest.mark.parametrize("key", ["max_depth", "max_thickness", "max_volume"])
-def test_what_rules_limit_is_measured_within_the_steps_of_the_scene(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, key: str
-) -> None:
-    rule = Rule(a=Selector("*"), b=Selector("*"), **{key: 100.0})
-    scene = replace(brackets(tmp_path), rules=(rule,))
-    assert check(scene).summary.verdict == "pass"
-    monkeypatch.setattr(figures, "STEPS_OF_SEARCH", 10**12)  # no search may take a step
-    report = check(scene)
-    assert report.summary.verdict == "incomplete"
-    for finding in overlaps(report):
-        assert (finding.severity, finding.undecided) == ("warning", "limit")
-        assert (finding.depth, finding.thickness, finding.volume) == (None, None, None)
-        assert (finding.reason or "").endswith(f"of the pair is not known: {BEYOND_BUDGET}")
-    (effect,) = (e for e in report.effects if e.effect == key.removeprefix("max_"))
-    assert effect.not_run == {BEYOND_BUDGET: 6}
-    lone = check(replace(scene, bodies=scene.bodies[:2]))
-    assert lone.summary.verdict == "pass"  # its only pair shares with none
-
-
 def test_a_failure_of_a_measurement_leaves_what_is_proven_and_the_other_pairs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     original = figures.measure
 
-    def failing(draft: figures.Draft, effects: Collection[Effect]) -> Finding:
+    def failing(draft: figures.Draft) -> Finding:
         if draft.pair.a.id == "b2":
             raise RuntimeError("a fault")
-        return original(draft, effects)
+        return original(draft)
 
     monkeypatch.setattr(figures, "measure", failing)
     report = check(boxes(tmp_path))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.audit.meshes import check_meshes
 from tests.audit.shapes import (
     Mesh,
     box,
@@ -96,3 +98,24 @@ def test_no_rung_leaves_a_sheet_out(tmp_path, accuracy, sheet):
     settings = Settings(accuracy=accuracy, cache=False)
     report = check(scene_of(tmp_path, a=sheet, b=unit_box(z=-0.5)), settings)
     assert (only(report).relation, report.summary.verdict) == ("penetrating", "fail")
+
+
+def test_triangles_that_close_cracks_are_no_sheets():
+    """Turned boxes with T-junctions on an edge: what closes these may lie on itself. As long as
+    that counts as a sheet, the overlap has no thickness."""
+    points, sides = box((0.0, 0.0, 0.0), (3.0, 3.0, 1.0))
+    sides = [side for side in sides if any(points[k][2] < 1.0 for k in side)]
+    points += [(0, 3, 1), (0, 0, 1), (1, 0, 1), (2, 0, 1), (3, 0, 1), (3, 3, 1)]
+    other = unit_box(1, 1, 0.5)
+    for seed in range(40):
+        turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+        turn[:, 0] *= np.linalg.det(turn)
+        pair = [
+            (
+                np.array(mesh[0]) @ turn.T,
+                [(f[0], *f[k : k + 2]) for f in mesh[1] for k in range(1, len(f) - 1)],
+            )
+            for mesh in ((points, [*sides, range(8, 14)]), other)
+        ]
+        finding = check_meshes(*pair, settings=Settings(depth=True))
+        assert finding.thickness == pytest.approx(0.5, rel=0.01), seed

@@ -75,3 +75,7 @@ def test_sheets_are_told_from_walls_and_cavities() -> None:
     sheet = mesh_of_soup((*triangle, *triangle[::-1]))
     assert not has_sheets(Surface(both(CUBE.mesh(), sheet), True), 0.0)
     assert has_sheets(Surface(both(CUBE.mesh(), sheet.translated((9.0, 0.0, 0.0))), True), 0.0)
+    alone = Surface(both(CUBE.mesh(), sheet.translated((9.0, 0.0, 0.0))), True)
+    width = 0.25 / 2**0.5  # of the triangle
+    assert has_sheets(alone, 0.99 * width)
+    assert not has_sheets(alone, 1.01 * width)

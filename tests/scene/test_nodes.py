@@ -461,7 +461,7 @@ def test_a_small_file_places_fewer_bodies(tmp_path, monkeypatch):
 
 
 def test_copies_that_make_one_body_are_few_times_what_the_file_holds(tmp_path, monkeypatch):
-    content = graphs.glb([{"mesh": 0} for _ in range(600)], roots=[*range(600)])
+    content = graphs.glb([{"mesh": 0} for _ in range(1200)], roots=[*range(1200)])
     assert not scene_of(tmp_path, "a.glb", content, "none").unreadable
     monkeypatch.setattr(limits, "ANY_COPIED", 0)
     (refused,) = scene_of(tmp_path, "a.glb", content, "none").unreadable

@@ -196,7 +196,7 @@ TriangleContact classify(const TrianglePlane& plane, const Corners& b, Budget* b
     spend(budget, kFlatWork);
     const bool lines = is_collinear(a, budget) || is_collinear(b, budget);
     const bool meet = lines ? any_edge_meets(a, b, budget) || any_edge_meets(b, a, budget)
-                            : !edge_separates(a, b, projection_axis(rounded_normal(a[0], a[1], a[2], budget)), -1, budget);
+                            : !edge_separates(a, b, projection_axis(a[0], a[1], a[2], budget), -1, budget);
     return meet ? TriangleContact::touching : TriangleContact::disjoint;
   }
   const Lone la = from_lone_corner(a, sa), lb = from_lone_corner(b, sb);

@@ -10,7 +10,7 @@ namespace satcheck {
 bool covers_once(const Surface& solid);
 
 // Whether a piece of the surface is a sheet, without an inside on either side. Also true if a sample gives no answer.
-// crack: triangles no wider than this make no sheet, as those that close a crack may lie on each other.
+// Triangles no wider than `crack` make no sheet: those that close a crack may lie on each other.
 bool has_sheets(const Surface& solid, double crack);
 
 }  // namespace satcheck

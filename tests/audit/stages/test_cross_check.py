@@ -37,7 +37,7 @@ class Liar(Peers):
         return False
 
     def common_volume(self, *_: Mesh) -> OverlapVolume:
-        return OverlapVolume(0.0, 1e-12, 0)
+        return OverlapVolume(0.0, 1e-12)
 
 
 def scene_of_meshes(folder: Path, *meshes: Mesh) -> Scene:
