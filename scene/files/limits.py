@@ -18,7 +18,7 @@ ANY_COPIED, MAX_COPIES = 1_000_000, 1_000
 MAX_WITHOUT_DATA = 100_000  # elements of accessors of glTF that the file does not hold
 # Indices of glTF may name the data of their file so many times over, and more of them in any case.
 MAX_REPEATED, ANY_REPEATED = 4, BYTES_PER_MEGABYTE // 4
-# A part of a zip may unpack to so much, and to so many times its packed size. Meshes are packed to a
+# A part of a zip may unpack to so much, and to so many times its packed size. Meshes shrink to a
 # tenth.
 ANY_UNPACKED, MAX_UNPACKED = 8 * BYTES_PER_MEGABYTE, 100
 MAX_DEPTH = 200  # of elements in XML and keys in TOML; no program nests deeper
