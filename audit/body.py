@@ -147,7 +147,7 @@ class SharedMesh:
         # None of these holds this object, so that it goes with its last body, not with a later
         # search for cycles.
         self.covers_once = Once(lambda: core.covers_once(geometry.surface()))
-        crack = CRACK_WIDTH * file.resolution
+        crack = CRACK_WIDTH * file.resolution if health.cracks else 0.0
         self.has_sheets = Once(lambda: core.has_sheets(geometry.surface(), crack))
         self.decomposition = Once(partial(_decomposition, file, settings))
         self.shape = Once(partial(_shape, file, is_open))
