@@ -139,6 +139,7 @@ def command(
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # of a cluster: as Ctrl-C
     inputs = Inputs.taken_from(options)
     targets, results = _targets(form, outputs)
+    shows = bool(outputs) or not quiet
     check = _engine(engine, scheduler)
     worlds, foreign, folders = _worlds(inputs, manifest, shard)
     inputs = replace(inputs, folders=folders)
@@ -158,14 +159,7 @@ def command(
     return check_worlds(
         worlds,
         check_options(inputs, options, baseline, config),
-        Delivery(
-            targets,
-            quiet,
-            exit_zero,
-            options["timings"],
-            top,
-            shows=bool(outputs) or not quiet,
-        ),
+        Delivery(targets, quiet, exit_zero, options["timings"], top, shows=shows),
         Limits(inputs.limit["scene-seconds"], int(inputs.limit["scene-megabytes"])),
         complete=since is None and shard.count == 1,
         results=results,

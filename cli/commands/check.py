@@ -210,15 +210,8 @@ def command(
     inputs = Inputs.taken_from(options)
     options["part_seconds"] = inputs.limit["body-seconds"]
     refuse_early(inputs, outputs, baseline)
-    to = Delivery(
-        targets_of(form, outputs, FORMATS),
-        quiet,
-        exit_zero,
-        options["timings"],
-        top,
-        explain,
-        shows=bool(outputs) or not quiet,
-    )
+    targets, shows = targets_of(form, outputs, FORMATS), bool(outputs) or not quiet
+    to = Delivery(targets, quiet, exit_zero, options["timings"], top, explain, shows=shows)
     refuse_certificate(to.forms, wanted=options["certificate"])
     pictures = [form for form in to.forms if kind_of(form) == "picture"]
     for picture in pictures:
