@@ -176,7 +176,7 @@ def _decomposition(file: MeshFile, settings: Settings) -> Decomposition | Decomp
     directory = settings.cache_directory
     cache = user_cache() if directory is None else Cache(Path(directory))
     try:
-        with step(f"splitting for at most {settings.part_seconds:g} s: {file.path}"):
+        with step(f"splitting {file.path}", settings.part_seconds):
             return decompose(
                 file.mesh,
                 threshold=settings.part_threshold,

@@ -7,6 +7,8 @@ out those that are known to end it. Else nothing here has an effect.
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
@@ -16,10 +18,12 @@ from satcheck.core.errors import SatcheckError
 
 
 class _Step:
-    __slots__ = ("name",)
+    """end: where time.monotonic() ends it."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    __slots__ = ("end", "name")
+
+    def __init__(self, name: str, seconds: float) -> None:
+        self.name, self.end = name, time.monotonic() + seconds
 
 
 # Of all threads, in the order in which the steps began. Appending and removing are atomic, so no
@@ -28,18 +32,18 @@ _under_way: list[_Step] = []
 
 
 @contextmanager
-def step(name: str) -> Iterator[None]:
-    """`splitting kettle`, while it lasts."""
-    with step_in_words() as say:
+def step(name: str, seconds: float = math.inf) -> Iterator[None]:
+    """`splitting kettle`, while it lasts. seconds: its limit."""
+    with step_in_words(seconds) as say:
         say(name)
         yield
 
 
 @contextmanager
-def step_in_words() -> Iterator[Callable[[str], None]]:
+def step_in_words(seconds: float = math.inf) -> Iterator[Callable[[str], None]]:
     """A step that says how far it is. Its name is what the function was called with last; before
     that it has none, so that steps that turn out short are not shown."""
-    this = _Step("")
+    this = _Step("", seconds)
 
     def say(name: str) -> None:
         if not this.name:
@@ -54,9 +58,12 @@ def step_in_words() -> Iterator[Callable[[str], None]]:
 
 
 def current() -> str:
-    """The name of the step that began last; empty when there is none."""
-    last = _under_way[-1:]
-    return last[0].name if last else ""
+    """The name of the step that began last, and the time that is left of its limit; empty when
+    there is none."""
+    if not (last := _under_way[-1:]):
+        return ""
+    left = last[0].end - time.monotonic()
+    return last[0].name + (f", at most {max(left, 0.0):.0f} s left" if left < math.inf else "")
 
 
 class LeftOut(SatcheckError):

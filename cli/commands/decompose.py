@@ -208,28 +208,30 @@ class _Splitter:
         )
         limits = Limits(asked.max_parts, asked.max_vertices, asked.enclose)
         self._place = partial(placed, limits=limits, seconds=asked.seconds)
+        self._seconds = asked.seconds
         self._known: dict[object, Decomposition | SatcheckError] = {}
 
     def split_each(self, bodies: Sequence[Body]) -> list[_Split]:
         done = []
         for number, body in enumerate(counting(bodies, "bodies", "splitting"), 1):
-            with step(f"splitting {body.id}, {number} of {len(bodies)}"):
-                done.append((body, self._parts(body)))
+            done.append((body, self._parts(body, f"{body.id}, {number} of {len(bodies)}")))
         return done
 
-    def _parts(self, body: Body) -> Decomposition | SatcheckError:
+    def _parts(self, body: Body, name: str) -> Decomposition | SatcheckError:
         if isinstance(body.shape, HalfSpace):
             return SatcheckError("half-space", "a half space is convex, and has no end")
         if is_curved(body.shape):
             return SatcheckError("curved-shape", "a curved shape is convex, and has no triangles")
         mesh, transform = body.file.mesh, body.transform
         content = mesh.to_bytes()
-        parts = self._once(content, partial(self._split, mesh))
+        with step(f"splitting {name}", self._seconds):
+            parts = self._once(content, partial(self._split, mesh))
         if isinstance(parts, SatcheckError):
             return parts
-        return self._once(
-            (content, transform), lambda: self._place(body.world_mesh(), parts, transform)
-        )
+        with step(f"fitting the parts of {name}", self._seconds):
+            return self._once(
+                (content, transform), lambda: self._place(body.world_mesh(), parts, transform)
+            )
 
     def _once(
         self, key: object, make: Callable[[], Decomposition]

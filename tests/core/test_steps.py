@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from satcheck.core.steps import current, step, step_in_words
@@ -13,6 +15,16 @@ def test_the_step_that_began_last_is_current() -> None:
             assert current() == "inner"
         assert current() == "outer"
     assert current() == ""
+
+
+def test_a_step_with_a_limit_says_how_much_of_it_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 100.0
+    monkeypatch.setattr(time, "monotonic", lambda: now)
+    with step("splitting kettle", 60.0):
+        now = 117.4
+        assert current() == "splitting kettle, at most 43 s left"
+        now = 161.0
+        assert current() == "splitting kettle, at most 0 s left"
 
 
 def test_a_step_in_words_is_shown_from_its_first_words_on() -> None:
