@@ -37,14 +37,17 @@ def check_fit(
     make, state = rng.choice(KINDS), rng.getrandbits(64)
     factor = rng.choice([0.01, 1.0, 1.0, 25.4, 1000.0])
     flush = make(Random(state), 0.0)
-    outer = solid_of(flush.outer, rng)
+    # Rounded decimals may be coarser than the precision of the file, which no crack exceeds.
+    has_junctions = number % 2 == 1 and file_format != "obj-rounded"
+    junctions = Random(state) if has_junctions else None
+    outer = solid_of(flush.outer, rng, junctions)
     by = placing(rng, factor * _size(outer))
     more = 0.0
     if interferes:
         far = max(max(map(abs, p)) for p in placed(scaled(outer, factor), by).vertices)
         far += 2 * factor * _size(outer)  # where the inner one may reach
         more = rng.uniform(3.5, 12.0) * 2 * far * STEPS.get(file_format, FLOAT32_STEP) / factor
-    inner = solid_of(make(Random(state), more).inner, rng)
+    inner = solid_of(make(Random(state), more).inner, rng, junctions)
     solids = scaled(outer, factor), scaled(inner, factor)
     arguments = FORMATS[file_format](folder, solids, by, rng)
     ran = satcheck(*arguments, "--format", "json", "--no-depth", "-j", "1", cwd=folder)

@@ -2,7 +2,7 @@
 
 A solid is a list of flat faces, each a polygon with at most one hole, in the frame in which the
 faces of the two solids lie in each other exactly. Each face is cut into triangles from a random
-corner, so that the diagonals of faces that lie in each other differ.
+corner, so that the diagonals of faces that lie in each other differ. Edges may have T-junctions.
 """
 
 from __future__ import annotations
@@ -121,15 +121,38 @@ def regular(radius: float, corners: int, start: float) -> Outline:
     return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in steps]
 
 
-def solid_of(faces: list[Face], rng: Random) -> Solid:
+def solid_of(faces: list[Face], rng: Random, junctions: Random | None = None) -> Solid:
+    """junctions: faces get vertices on half of their edges, which their neighbours lack."""
     numbers: dict[Point, int] = {}
     triangles = []
     for face in faces:
         points = [*face.loop, *(face.hole or [])]
+        cut = _cut(face, rng)
+        if junctions is not None:
+            _add_junctions(points, cut, len(face.loop), junctions)
         place = [numbers.setdefault(p, len(numbers)) for p in points]
-        for i, j, k in _cut(face, rng):
+        for i, j, k in cut:
             triangles.append((place[i], place[j], place[k]))
     return Solid(list(numbers), triangles)
+
+
+def _add_junctions(
+    points: list[Point], cut: list[tuple[int, int, int]], loop: int, rng: Random
+) -> None:
+    """loop: the number of points of the loop; those of the hole follow."""
+    rings = (list(range(loop)), list(range(loop, len(points))))
+    edges = [(ring[i - 1], ring[i]) for ring in rings for i in range(len(ring))]
+    for i, j in edges:
+        if rng.random() < 0.5:
+            turned = (
+                (n, corners[m:] + corners[:m]) for n, corners in enumerate(cut) for m in (0, 1, 2)
+            )
+            n, (_, _, k) = next(each for each in turned if each[1][:2] == (i, j))
+            share = rng.random()
+            x, y, z = (p + share * (q - p) for p, q in zip(points[i], points[j], strict=True))
+            cut[n] = (i, len(points), k)
+            cut.append((len(points), j, k))
+            points.append((x, y, z))
 
 
 def _cut(face: Face, rng: Random) -> list[tuple[int, int, int]]:

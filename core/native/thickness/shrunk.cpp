@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <unordered_map>
 #include <vector>
 
 #include "base/rounding.hpp"
+#include "exact/triangle_distance.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "thickness/nearest_to_zero.hpp"
@@ -23,6 +25,8 @@ constexpr double kShort = 1 - 1e-6;
 // A side moves by this share of the most that a vertex may move: the corner of a cube moves sqrt(3) times as far as its
 // sides.
 constexpr double kShare = 0.57;
+// A triangle narrower than this share of its length, and than a vertex may move, is no side, as those that close cracks.
+constexpr double kNarrow = 0x1p-10;
 
 void add(std::vector<Vec3>& normals, Vec3 normal) {
   for (const Vec3 known : normals) {
@@ -45,10 +49,19 @@ Vec3 inwards(const std::vector<Vec3>& normals) {
   return least > 0 ? way * (-1 / least) : Vec3{};
 }
 
-// Moves the corners of the triangles whose boxes meet `other`.
+// The normal of a side; empty if the triangle is none.
+std::optional<Vec3> side(const Corners& c, double most) {
+  const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
+  const double twice_area = norm(normal), longest = std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
+  if (!(twice_area > std::min(most, kNarrow * longest) * longest)) return std::nullopt;
+  return normal * (1 / twice_area);
+}
+
+// Moves the corners of the triangles whose boxes meet `other`, each away from the sides around it. A corner of a narrow
+// triangle lies on sides of which it is no corner.
 Surface shrunk(const Surface& surface, double most, const Aabb& other) {
   const Mesh& mesh = surface.mesh;
-  std::vector<bool> moves(mesh.vertices.size(), false);
+  std::vector<bool> moves(mesh.vertices.size(), false), is_loose(mesh.vertices.size(), false);
   visit_box(surface.bvh, mesh, other, [&](std::uint32_t t) {
     for (const std::uint32_t v : mesh.triangles[t]) moves[v] = true;
     return true;
@@ -57,17 +70,24 @@ Surface shrunk(const Surface& surface, double most, const Aabb& other) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& vertices = mesh.triangles[t];
     if (std::none_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return moves[v]; })) continue;
-    const Corners c = corners(mesh, t);
-    const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
-    const double length = norm(normal);
-    if (!(length > 0)) continue;
+    const std::optional<Vec3> normal = side(corners(mesh, t), most);
     for (const std::uint32_t v : vertices) {
-      if (moves[v]) add(normals[v], normal * (1 / length));
+      if (!normal) is_loose[v] = true;
+      if (normal && moves[v]) add(normals[v], *normal);
     }
   }
   Mesh moved = mesh;
-  for (const auto& [vertex, here] : normals) {
+  for (auto& [vertex, here] : normals) {
     Vec3& v = moved.vertices[vertex];
+    const Vec3 reach = Vec3{1, 1, 1} * most;
+    if (is_loose[vertex]) {
+      visit_box(surface.bvh, mesh, {v - reach, v + reach}, [&](std::uint32_t t) {
+        const Corners c = corners(mesh, t);
+        const std::optional<Vec3> normal = side(c, most);
+        if (normal && norm(nearest_on_triangle(v, c) - v) <= most) add(here, *normal);
+        return true;
+      });
+    }
     Vec3 way = inwards(here) * (kShare * most);
     const double length = norm(way);
     if (length > most * kShort) way = way * (most * kShort / length);
