@@ -348,8 +348,8 @@ def _findings(
     of few pairs, of those that are apart by their boxes."""
     findings = {pair: checked.finding for pair, checked in zip(close, examined, strict=True)}
     settings = planner.settings
-    total, allowed = bodies.book.count()
     listed = settings.list_pruned
+    total, allowed = (0, 0) if listed is False else bodies.book.count()
     if listed is None:
         listed = total - allowed <= LISTED_PAIRS
     most = None if listed else LISTED_UNDECIDABLE

@@ -114,7 +114,8 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
 
 class _SortedBatch:
     """Poses whose pairs the core has sorted. found: the findings of each pose so far, by the
-    numbers of the pairs. alone: poses that need a check of their own."""
+    numbers of the pairs; deep: those that the sort proves and counts. alone: poses that need a
+    check of their own."""
 
     def __init__(
         self,
@@ -129,6 +130,7 @@ class _SortedBatch:
         self._sorted, _ = pairs.sift(self._matrices)
         self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
         self._found: dict[int, dict[int, Finding]] = {}
+        self._deep: dict[int, dict[int, Finding]] = {}
         self._alone: set[int] = set()
 
     def count(self) -> None:
@@ -143,13 +145,10 @@ class _SortedBatch:
             if row in self._alone:
                 self._results.add(self._batch, row)
             else:
-                found = self._findings(row)
-                issues = (
-                    Issue(i.code, i.severity, i.body, i.file, i.message)
-                    for i in self._batch.issues(row)
-                )
+                found, issues = self._findings(row), self._batch.issues(row)
+                told = [Issue(i.code, i.severity, i.body, i.file, i.message) for i in issues]
                 self._results.listed.append(
-                    self._results.sample(self._batch, row, verdicts[row], found, issues)
+                    self._results.sample(self._batch, row, verdicts[row], found, told)
                 )
 
     def _listed(self) -> NDArray[np.bool_]:
@@ -170,7 +169,7 @@ class _SortedBatch:
             finding = self._results.told(deep_overlap(self._pairs.pairs[number]))
             for row in np.flatnonzero(proven[:, number]).tolist():
                 tolerance = float(tolerances[row, number])
-                self._found.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
+                self._deep.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
         return proven
 
     def _find(self, asked: NDArray[np.bool_]) -> None:
@@ -198,7 +197,7 @@ class _SortedBatch:
             self._results.issues |= dict.fromkeys(pair.issues)
 
     def _findings(self, row: int) -> tuple[Finding, ...]:
-        found = self._found.get(row, {})
+        found = self._found.get(row, {}) | self._deep.get(row, {})
         return tuple(found[k] for k in sorted(found) if not is_plain(found[k]))
 
     def _verdicts(self) -> dict[int, Verdict]:
@@ -211,7 +210,7 @@ class _SortedBatch:
         failed = ((codes == DEEP) & self._pairs.deep_fails).any(axis=1).tolist()
         undecided = (codes == UNDECIDED).any(axis=1).tolist()
         for row in sorted(self._found.keys() - self._alone):
-            for finding in self._findings(row):
+            for finding in self._found[row].values():
                 results.count(finding, self._batch.first + row)
                 failed[row] |= fails(finding, results.settings.fail_on)
                 undecided[row] |= finding.undecided is not None

@@ -99,7 +99,7 @@ def _turned(quaternion: Numbers) -> Any:
 def _cos_sin(radians: Numbers) -> tuple[Any, Any]:
     # numpy's own cosine may differ in the last bit, and between processors.
     turns = radians.tolist()
-    return np.array([*map(math.cos, turns)]), np.array([*map(math.sin, turns)])
+    return tuple(np.fromiter(map(turn, turns), float, len(turns)) for turn in (math.cos, math.sin))
 
 
 def plane_axes(normal: Vector) -> tuple[Vector, Vector]:
