@@ -180,7 +180,7 @@ class PoseBatch:
         for own in map(self.values.__getitem__, names):
             column = np.broadcast_to(own, (len(own), self.count))
             columns.append((column[0] if len(own) == 1 else column.T).tolist())
-        return names, [row[1:] for row in zip(*columns)]
+        return names, [row[1:] for row in zip(*columns, strict=True)]
 
     def issues(self, row: int) -> tuple[Issue, ...]:
         """See `Posture.issues`."""
