@@ -29,7 +29,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs, same_way
 from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults, is_plain
-from satcheck.audit.settings import Settings
+from satcheck.audit.settings import Settings, require_settings
 from satcheck.audit.summary import size_of
 from satcheck.report.report import Finding, Issue, Verdict
 from satcheck.report.samples import SamplesReport
@@ -71,6 +71,7 @@ def check_poses(
     """
     if not poses:
         raise ValueError("no pose to check")
+    require_settings(settings)
     settings = replace(settings, list_pruned=False, depth=settings.depth or False)
     results = SampleResults(scene, settings, lists_all=len(poses) <= LISTED_SAMPLES)
     batches = pose_batches(scene, poses, BATCH)
@@ -94,10 +95,9 @@ def check_poses(
 
 
 def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
-    """The pairs for the core to sort; None: each pose is checked alone. Checks the first pose, for
-    what is the same in all poses."""
+    """The pairs for the core to sort, if all poses have the same question; None: each pose is
+    checked alone."""
     scene, settings = batch.posed(0), results.settings
-    results.check(batch, 0, scene)
     bodies = place(scene, settings, results.cache)
     if not same_way(scene, settings, bodies):
         return None
@@ -109,7 +109,10 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     sizes = {body.id: size_of(body) for body in bodies.placed.values()}
     # A tolerance of the size of a body gets a warning, from the check of its pose.
     small = all((p.request.tolerance or 0.0) < min(sizes[p.a.id], sizes[p.b.id]) for p in pairs)
-    return PosedPairs(list(bodies.placed.values()), pairs) if pairs and small else None
+    if not (pairs and small):
+        return None
+    results.describe(batch, scene)
+    return PosedPairs(list(bodies.placed.values()), pairs)
 
 
 class _SortedBatch:
