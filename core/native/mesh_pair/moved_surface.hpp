@@ -24,6 +24,12 @@ class MovedSurface {
     if (!still.solid) closed_ = std::make_shared<MovedSurface>(*closing_of(still, OpenParts::filled)->surface);
   }
 
+  // The surface as it was moved last.
+  Surface take() && {
+    moved_.outline = std::make_shared<LazyOutline>();
+    return std::move(moved_);
+  }
+
   // The surface with t added to every coordinate, rounded once. Rounding keeps the order of coordinates, so the moved
   // boxes contain the moved triangles exactly. Valid until the next call.
   const Surface& at(Vec3 t, Budget* budget = nullptr) {
@@ -57,6 +63,9 @@ class MovedSurface {
   std::optional<Vec3> at_;  // where it is
   std::shared_ptr<MovedSurface> closed_;  // of an open surface
 };
+
+// The surface with t added to every coordinate. If rounding has merged two vertices, it is built from scratch.
+Surface translated_surface(const Surface& still, Vec3 t);
 
 // A point near the meshes that can be subtracted from all their coordinates without rounding; 0 along an axis on which
 // the meshes are near the origin. Relative to it, coordinates are small: moving them rounds less, and far fewer signs
