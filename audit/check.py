@@ -109,6 +109,15 @@ def check(
     return _report(scene, bodies, planner, movers, pairs, examined, unexamined)
 
 
+def described(scene: Scene, settings: Settings, cache: BodyCache) -> Report:
+    """Return the report of a check of bodies at rest, without their pairs."""
+    require_settings(settings)
+    scene = _loaded(scene, settings)
+    _require_bodies(scene, 2)
+    bodies = place(scene, settings, cache)
+    return _report(scene, bodies, Planner(settings, bodies.book, scene.composed), None, [], [], 0)
+
+
 def check_meshes_of(scene: Scene, settings: Settings) -> Finding:
     """Return the finding of the only pair of a scene of two meshes in memory, as `check` reports
     it. No other part of a report is made."""
@@ -348,8 +357,8 @@ def _findings(
     of few pairs, of those that are apart by their boxes."""
     findings = {pair: checked.finding for pair, checked in zip(close, examined, strict=True)}
     settings = planner.settings
-    total, allowed = bodies.book.count()
     listed = settings.list_pruned
+    total, allowed = (0, 0) if listed is False else bodies.book.count()
     if listed is None:
         listed = total - allowed <= LISTED_PAIRS
     most = None if listed else LISTED_UNDECIDABLE

@@ -105,7 +105,7 @@ class PosedPairs:
     def _resolution(self, k: int, matrices: Numbers) -> float:
         """An upper bound of the precision of the coordinates of a body in all of these poses."""
         body = self._bodies[k]
-        stretch = body.largest_stretch * _TURNED
+        stretch = body.stretch * _TURNED
         farthest = float(np.abs(matrices[:, k, 3::4]).max())
         file = body.body.file
         step = (3 * stretch * body.shared.largest + farthest) * file.placement_step

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.bodies import BodyCache
 from satcheck.audit.body import SharedMesh
-from satcheck.audit.check import check
+from satcheck.audit.check import check, described
 from satcheck.audit.messages import finding_message
 from satcheck.audit.settings import Settings
 from satcheck.core.transform import Transform
@@ -37,8 +37,8 @@ VERDICTS: tuple[Verdict, ...] = ("fail", "incomplete", "pass")
 
 
 class SampleResults:
-    """What the samples so far have added up to. first: the report of the first one; all have its
-    units, rules and settings."""
+    """What the samples so far have added up to. first: the report of the first one, maybe without
+    its pairs; all have its units, rules and settings."""
 
     def __init__(self, scene: Scene, settings: Settings, *, lists_all: bool) -> None:
         self.settings, self.lists_all = settings, lists_all
@@ -63,6 +63,16 @@ class SampleResults:
     def check(self, batch: PoseBatch, row: int, posed: Scene) -> SampledPose:
         """Checks a pose as a scene of its own, which is `posed`."""
         report = check(posed, self.settings, cache=self.cache)
+        of_pose = self._take(report, batch, row)
+        told = tuple(self.told(finding) for finding in report.findings if not is_plain(finding))
+        return self.sample(batch, row, report.summary.verdict, told, of_pose)
+
+    def describe(self, batch: PoseBatch, posed: Scene) -> None:
+        """Takes what is the same in all poses from the first one, which is `posed`."""
+        self._take(described(posed, self.settings, self.cache), batch, 0)
+
+    def _take(self, report: Report, batch: PoseBatch, row: int) -> list[Issue]:
+        """Keeps what the report of a pose says of all poses, and returns its other issues."""
         if self.first is None:
             self.first = report
             self._placed = {body.id: body.transform for body in report.bodies}
@@ -70,8 +80,7 @@ class SampleResults:
         of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
         others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
         self.issues |= dict.fromkeys(others)
-        told = tuple(self.told(finding) for finding in report.findings if not is_plain(finding))
-        return self.sample(batch, row, report.summary.verdict, told, of_pose)
+        return of_pose
 
     def told(self, finding: Finding) -> Finding:
         """Return the finding with its message."""

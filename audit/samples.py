@@ -29,7 +29,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Planner
 from satcheck.audit.posed_pairs import APART, DEEP, OPEN, UNDECIDED, PosedPairs, same_way
 from satcheck.audit.sample_results import LISTED_SAMPLES, SampleResults, is_plain
-from satcheck.audit.settings import Settings
+from satcheck.audit.settings import Settings, require_settings
 from satcheck.audit.summary import size_of
 from satcheck.report.report import Finding, Issue, Verdict
 from satcheck.report.samples import SamplesReport
@@ -71,6 +71,7 @@ def check_poses(
     """
     if not poses:
         raise ValueError("no pose to check")
+    require_settings(settings)
     settings = replace(settings, list_pruned=False, depth=settings.depth or False)
     results = SampleResults(scene, settings, lists_all=len(poses) <= LISTED_SAMPLES)
     batches = pose_batches(scene, poses, BATCH)
@@ -94,10 +95,9 @@ def check_poses(
 
 
 def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
-    """The pairs for the core to sort; None: each pose is checked alone. Checks the first pose, for
-    what is the same in all poses."""
+    """The pairs for the core to sort, if all poses have the same question; None: each pose is
+    checked alone."""
     scene, settings = batch.posed(0), results.settings
-    results.check(batch, 0, scene)
     bodies = place(scene, settings, results.cache)
     if not same_way(scene, settings, bodies):
         return None
@@ -109,12 +109,16 @@ def _sortable(results: SampleResults, batch: PoseBatch) -> PosedPairs | None:
     sizes = {body.id: size_of(body) for body in bodies.placed.values()}
     # A tolerance of the size of a body gets a warning, from the check of its pose.
     small = all((p.request.tolerance or 0.0) < min(sizes[p.a.id], sizes[p.b.id]) for p in pairs)
-    return PosedPairs(list(bodies.placed.values()), pairs) if pairs and small else None
+    if not (pairs and small):
+        return None
+    results.describe(batch, scene)
+    return PosedPairs(list(bodies.placed.values()), pairs)
 
 
 class _SortedBatch:
     """Poses whose pairs the core has sorted. found: the findings of each pose so far, by the
-    numbers of the pairs. alone: poses that need a check of their own."""
+    numbers of the pairs; deep: those that the sort proves and counts. alone: poses that need a
+    check of their own."""
 
     def __init__(
         self,
@@ -129,6 +133,7 @@ class _SortedBatch:
         self._sorted, _ = pairs.sift(self._matrices)
         self._noted = (self._sorted == DEEP) | (self._sorted == UNDECIDED)
         self._found: dict[int, dict[int, Finding]] = {}
+        self._deep: dict[int, dict[int, Finding]] = {}
         self._alone: set[int] = set()
 
     def count(self) -> None:
@@ -143,13 +148,10 @@ class _SortedBatch:
             if row in self._alone:
                 self._results.add(self._batch, row)
             else:
-                found = self._findings(row)
-                issues = (
-                    Issue(i.code, i.severity, i.body, i.file, i.message)
-                    for i in self._batch.issues(row)
-                )
+                found, issues = self._findings(row), self._batch.issues(row)
+                told = [Issue(i.code, i.severity, i.body, i.file, i.message) for i in issues]
                 self._results.listed.append(
-                    self._results.sample(self._batch, row, verdicts[row], found, issues)
+                    self._results.sample(self._batch, row, verdicts[row], found, told)
                 )
 
     def _listed(self) -> NDArray[np.bool_]:
@@ -170,7 +172,7 @@ class _SortedBatch:
             finding = self._results.told(deep_overlap(self._pairs.pairs[number]))
             for row in np.flatnonzero(proven[:, number]).tolist():
                 tolerance = float(tolerances[row, number])
-                self._found.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
+                self._deep.setdefault(row, {})[number] = replace(finding, tolerance=tolerance)
         return proven
 
     def _find(self, asked: NDArray[np.bool_]) -> None:
@@ -198,7 +200,7 @@ class _SortedBatch:
             self._results.issues |= dict.fromkeys(pair.issues)
 
     def _findings(self, row: int) -> tuple[Finding, ...]:
-        found = self._found.get(row, {})
+        found = self._found.get(row, {}) | self._deep.get(row, {})
         return tuple(found[k] for k in sorted(found) if not is_plain(found[k]))
 
     def _verdicts(self) -> dict[int, Verdict]:
@@ -211,7 +213,7 @@ class _SortedBatch:
         failed = ((codes == DEEP) & self._pairs.deep_fails).any(axis=1).tolist()
         undecided = (codes == UNDECIDED).any(axis=1).tolist()
         for row in sorted(self._found.keys() - self._alone):
-            for finding in self._findings(row):
+            for finding in self._found[row].values():
                 results.count(finding, self._batch.first + row)
                 failed[row] |= fails(finding, results.settings.fail_on)
                 undecided[row] |= finding.undecided is not None

@@ -94,6 +94,7 @@ class RuleBook:
                 self._bodies.append([])
             self._bodies[number].append(index)
             self.kind_of.append(number)
+        self._exempts = any(kind.fixed or kind.ignored_groups for kind in self._kinds)
 
     def _sort_rules(self) -> tuple[list[list[int]], list[list[tuple[int, int]]]]:
         """Stores rules for a single pair under this pair. Returns, for the other rules, the numbers
@@ -119,7 +120,7 @@ class RuleBook:
     @property
     def _is_plain(self) -> bool:
         """Return whether there is no rule, and no pair is exempt."""
-        return not self.rules and not any(k.fixed or k.ignored_groups for k in self._kinds)
+        return not self.rules and not self._exempts
 
     def key(self, i: int, j: int) -> tuple[int, ...]:
         """A cache key: pairs with equal keys have the same terms."""
@@ -128,6 +129,8 @@ class RuleBook:
 
     def is_ignored(self, i: int, j: int) -> bool:
         """Whether the pair is exempt: neither checked nor counted."""
+        if not self._exempts:
+            return False
         a, b = (self._kinds[self.kind_of[k]] for k in (i, j))
         return (a.fixed and b.fixed) or not a.ignored_groups.isdisjoint(b.ignored_groups)
 

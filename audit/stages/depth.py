@@ -148,18 +148,16 @@ def relation_after(pair: Pair, translation: Vector) -> str:
         from satcheck.core.curved.freeing import frees
 
         return "separated" if frees(pair.a, pair.b, translation) else "penetrating"
-    moved = pair.a.mesh.translated(translation)
     if pair.may("exact"):
         try:
-            surface = pair.a.surface().refit(moved)
+            surface = pair.a.surface().translated(translation)
         except ValueError:  # rounding has made one point of several: no longer the same solid
             return "unproven"
         result = core.mesh_relation(surface, pair.b.surface(), steps=pair.steps_for_moves)
         pair.moved_steps += result.steps
         return result.relation if result.proven else "unproven"
-    return core.check_pair(
-        core.Hull(moved.convex_hull()), pair.b.hull_shape(), query="overlap"
-    ).outcome
+    moved = core.Hull(pair.a.mesh.translated(translation).convex_hull())
+    return core.check_pair(moved, pair.b.hull_shape(), query="overlap").outcome
 
 
 def against(normal: Vector, length: float) -> Vector:

@@ -132,7 +132,7 @@ def _leaves_gap(pair: Pair, move: Vector, pad: float) -> bool:
         return (apart.lower or 0.0) - pad >= pair.closer
     if relation_after(pair, move) != "separated":
         return False
-    moved = pair.a.surface().refit(pair.a.mesh.translated(move))
+    moved = pair.a.surface().translated(move)
     gap = core.mesh_distance(moved, pair.b.surface(), 2 * pair.closer + 2 * pad)
     return gap.distance - pad >= pair.closer
 

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 
 STAGE = "thickness"
+# Both searches need memory for each triangle. If the bodies have more triangles, one search runs
+# after the other.
+MOST_TRIANGLES = 1_000_000
 
 
 def why_not_thick(pair: Pair) -> str | None:
@@ -57,8 +60,9 @@ def measure_thickness(draft: Draft) -> None:
         draft.reason = draft.reason or f"no thickness: {why_not}"
         return
     work, limit = pair.thickness_work, pair.request.max_thickness
+    known = _known_bound(draft)
     if draft.ahead is None:
-        interval = first_search(pair)
+        interval = _search(pair, pair.settings.width, work, None, most=known)
         draft.record(STAGE, *_outcome_of(interval))
     else:
         interval, nanoseconds = draft.ahead()
@@ -66,7 +70,7 @@ def measure_thickness(draft: Draft) -> None:
     draft.work += interval.work
     thickness = _thickness_of(interval)
     if limit is not None and thickness.lower <= limit < thickness.upper and interval.work < work:
-        closer = _search(pair, EXACT_WIDTH, work - interval.work, limit)
+        closer = _search(pair, EXACT_WIDTH, work - interval.work, limit, most=known)
         draft.work += closer.work
         draft.record(STAGE, *_outcome_of(closer))
         thickness = _narrower(thickness, _thickness_of(closer))
@@ -74,6 +78,15 @@ def measure_thickness(draft: Draft) -> None:
         thickness = _of_curves(pair, thickness)
     most = math.inf if depth is None else max(depth.upper, thickness.lower)
     draft.thickness = replace(thickness, upper=min(thickness.upper, most))
+
+
+def _known_bound(draft: Draft) -> float:
+    """Return the depth as a bound of the thickness, if it is known before the search whatever the
+    number of jobs. A proof is of the search alone."""
+    pair, depth = draft.pair, draft.depth
+    if depth is None or pair.triangles <= MOST_TRIANGLES or pair.settings.certificate:
+        return math.inf
+    return depth.upper
 
 
 def first_search(pair: Pair, go_on: Callable[[], None] | None = None) -> core.ThicknessInterval:
@@ -87,8 +100,9 @@ def _search(
     work: int,
     limit: float | None,
     go_on: Callable[[], None] | None = None,
+    most: float = math.inf,
 ) -> core.ThicknessInterval:
-    """limit: the search ends once the interval lies on one side of it."""
+    """limit: the search ends once the interval lies on one side of it. most: a known bound."""
     with pair.searching(STAGE) as show:
 
         def progress(lower: float, upper: float, share: float) -> None:
@@ -102,6 +116,7 @@ def _search(
             width=width,
             work=work,
             limit=limit,
+            most=most,
             across=across(pair, prove=pair.settings.certificate),
             prove=pair.settings.certificate,
             threads=pair.settings.jobs if pair.alone else 1,
@@ -140,11 +155,6 @@ def _of_curves(pair: Pair, thickness: Thickness) -> Thickness:
     """In a check in a plane: of curves, from that of the polygons within them."""
     more = max(body.body.file.deviation for body in (pair.a, pair.b))
     return Thickness(thickness.lower, thickness.upper + 2 * more, thickness.ball)
-
-
-# Both searches need memory for each triangle. If the bodies have more triangles, one search runs
-# after the other.
-MOST_TRIANGLES = 1_000_000
 
 
 class StoppedError(Exception):

@@ -99,7 +99,8 @@ def _turned(quaternion: Numbers) -> Any:
 def _cos_sin(radians: Numbers) -> tuple[Any, Any]:
     # numpy's own cosine may differ in the last bit, and between processors.
     turns = radians.tolist()
-    return np.array([*map(math.cos, turns)]), np.array([*map(math.sin, turns)])
+    cosines, sines = (map(function, turns) for function in (math.cos, math.sin))
+    return np.fromiter(cosines, float, len(turns)), np.fromiter(sines, float, len(turns))
 
 
 def plane_axes(normal: Vector) -> tuple[Vector, Vector]:

@@ -170,16 +170,17 @@ class PoseBatch:
 
     def stated(self, row: int) -> dict[str, float | list[float]]:
         """See `Posture.pose`."""
-        return {name: column[row] for name, column in self._columns.items()}
+        names, rows = self._stated
+        return dict(zip(names, rows[row], strict=True))
 
     @cached_property
-    def _columns(self) -> dict[str, list[Any]]:
-        columns = {}
-        for name, own in self.values.items():
-            if self._joints.movable[name].mimic is None:
-                column = np.broadcast_to(own, (len(own), self.count))
-                columns[name] = (column[0] if len(own) == 1 else column.T).tolist()
-        return columns
+    def _stated(self) -> tuple[list[str], list[tuple[Any, ...]]]:
+        names = [name for name in self.values if self._joints.movable[name].mimic is None]
+        columns = [range(self.count)]
+        for own in map(self.values.__getitem__, names):
+            column = np.broadcast_to(own, (len(own), self.count))
+            columns.append((column[0] if len(own) == 1 else column.T).tolist())
+        return names, [row[1:] for row in zip(*columns, strict=True)]
 
     def issues(self, row: int) -> tuple[Issue, ...]:
         """See `Posture.issues`."""

@@ -165,6 +165,18 @@ def test_vertices_that_rounding_brings_together_are_welded() -> None:
     assert surface.mesh.vertex_count < mesh.vertex_count
 
 
+def test_a_translated_surface_gives_the_answers_of_a_new_one() -> None:
+    mesh, other = bumpy_ball(7), Surface(bumpy_ball(8), True)
+    low, high = mesh.bounds
+    for share in (0.0, 0.3, 0.9, 2.5):
+        offset = (share * (high[0] - low[0]), 0.0, 0.1)
+        moved, new = Surface(mesh, True).translated(offset), Surface(mesh.translated(offset), True)
+        assert np.array_equal(moved.mesh.vertices, new.mesh.vertices)
+        assert mesh_relation(moved, other).relation == mesh_relation(new, other).relation
+    far = Surface(mesh, True).translated((2.0**52,) * 3)
+    assert far.mesh.vertex_count < mesh.vertex_count  # rounding has merged points
+
+
 def test_another_mesh_is_not_refitted() -> None:
     a, b = bumpy_ball(6), bumpy_ball(6, sectors=13)
     surface = Surface(a, True).refit(b)

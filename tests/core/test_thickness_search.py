@@ -45,6 +45,16 @@ def test_a_limit_ends_the_search_early() -> None:
         assert found.boxes <= exact.boxes
 
 
+def test_a_known_bound_makes_the_search_shorter() -> None:
+    truth = 2 * 3.0 / (3 + math.sqrt(3))
+    a, b = tetrahedron(3.0), cube(-1, 4)
+    alone = search_thickness(a, b, width=1e-3, work=WORK)
+    found = search_thickness(a, b, width=1e-3, work=WORK, most=truth * (1 + 1e-6))
+    assert found.stop == "narrow"
+    assert found.lower <= truth <= found.upper <= truth * (1 + 2e-6)
+    assert found.boxes <= alone.boxes
+
+
 def test_no_work_leaves_a_wide_interval() -> None:
     """A cube within the hollow of a box whose walls it enters by 1."""
     hollow = VoxelSolid(box((0, 0, 0), (8, 8, 8)).cells - box((2, 2, 2), (6, 6, 6)).cells)
@@ -55,7 +65,8 @@ def test_no_work_leaves_a_wide_interval() -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"width": -0.1}, {"less_a": -1.0}, {"less_b": math.inf}, {"limit": math.nan}]
+    "wrong",
+    [{"width": -0.1}, {"less_a": -1.0}, {"less_b": math.inf}, {"limit": math.nan}, {"most": 0.0}],
 )
 def test_wrong_lengths_are_refused(wrong: dict[str, float]) -> None:
     given = {"width": 0.01, **wrong}

@@ -18,6 +18,7 @@
 #include "mesh_pair/boundary_contact.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
+#include "mesh_pair/moved_surface.hpp"
 #include "mesh_pair/reach.hpp"
 
 namespace nb = nanobind;
@@ -70,6 +71,8 @@ hulls the winding numbers do not depend on the fill.)")
 4 pi, in float64. 0 without sheets.)")
       .def("refit", [](const Surface& like, const Mesh& mesh) { return refitted_surface(like, with_triangles(mesh)); }, "mesh"_a, ReleaseGil(), R"(The surface of `mesh`, which is this mesh with moved vertices: the tree is fitted again in linear time. It is built
 anew if the triangles differ, or if rounding has merged two vertices.)")
+      .def("translated", [](const Surface& s, const Tuple3& offset) { return translated_surface(s, to_vec3(offset)); }, "offset"_a, ReleaseGil(),
+           "Each coordinate is rounded once. ValueError for a solid that is none after that, because points are merged.")
       .def("winding_number",
            [](const Surface& s, const Tuple3& point) {
              if (!s.solid) throw std::invalid_argument("the surface is not a solid");

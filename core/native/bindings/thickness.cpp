@@ -40,16 +40,17 @@ std::pair<std::optional<const char*>, std::uint64_t> counted_fit(const Surface& 
 }
 
 ThicknessInterval checked_thickness(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
-                                    double less_b, std::optional<double> limit, int across, bool prove,
+                                    double less_b, std::optional<double> limit, double most, int across, bool prove,
                                     const OverlapComponent* within, unsigned threads, Progress progress) {
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
   if (!(less_a >= 0 && std::isfinite(less_a))) throw std::invalid_argument("less_a must be a finite length >= 0");
   if (!(less_b >= 0 && std::isfinite(less_b))) throw std::invalid_argument("less_b must be a finite length >= 0");
   if (limit && !std::isfinite(*limit)) throw std::invalid_argument("limit must be finite");
+  if (!(most > 0)) throw std::invalid_argument("most must be a length > 0");
   if (across < -1 || across > 2) throw std::invalid_argument("across must be an axis, 0 to 2, or -1");
   if (within != nullptr && prove) throw std::invalid_argument("within a component nothing is proven of the pair");
   const auto box = within != nullptr ? std::optional(box_around(*within)) : std::nullopt;
-  return search_thickness(a, b, {width, work, less_a, less_b, limit, across, prove, box, threads, polling(std::move(progress), work)});
+  return search_thickness(a, b, {width, work, less_a, less_b, limit, most, across, prove, box, threads, polling(std::move(progress), work)});
 }
 
 }  // namespace
@@ -108,11 +109,11 @@ nanosecond, do not decide that. The number is of the steps that it took. Swappin
 is then deeper than that in both, and no point of one surface is deeper in the other body than the sum of both. False: not found.
 Swapping a and b with their lengths changes nothing. ValueError for a surface that is not a solid.)");
   m.def("search_thickness", &checked_thickness, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
-        "less_b"_a = 0.0, "limit"_a = nb::none(), "across"_a = -1, "prove"_a = false, "within"_a.none() = nb::none(), "threads"_a = 1,
+        "less_b"_a = 0.0, "limit"_a = nb::none(), "most"_a = INFINITY, "across"_a = -1, "prove"_a = false, "within"_a.none() = nb::none(), "threads"_a = 1,
         "progress"_a.none() = nb::none(), nb::call_guard<nb::gil_scoped_release>(),
         R"(The diameter of the largest ball inside both of two solids as a proven interval, at most `width` wide relative to its
 upper end unless `work` steps, each about a nanosecond, are spent first. less_a, less_b: taken from the distance to the surface
-of a and of b. limit: the search ends as soon as the interval lies on one side of this length. across: an axis of the world along
+of a and of b. limit: the search ends as soon as the interval lies on one side of this length. most: the diameter is known to be no larger. across: an axis of the world along
 which both solids are prisms: triangles across it do not count; -1: none. prove: write down why `upper` holds, not with an axis.
 within: a component of the overlap: only its balls count, and others that have their centre in a box around it.
 threads: 0 for one a core. progress(lower, upper, share) is called now and then with the interval so far and the share of

@@ -236,7 +236,7 @@ class Climber {
       return true;
     });
     climb_.decided = climb_.triangles->decided;
-    if (!climb_.decided) return;
+    if (!climb_.decided || climb_.triangles->hole) return;
     const Relation relation = climb_.triangles->relation;
     if (relation == Relation::separated) {
       timed(kBand, [&] { return measure_gap(); });

@@ -20,7 +20,8 @@ namespace {
 
 }  // namespace
 
-std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& edges) {
+std::vector<BoundaryLoop> boundary_loops(const Mesh& welded) {
+  const EdgeTable edges(welded.vertices.size(), welded.triangles);
   std::vector<NodePair> boundary;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const int balance = edges.balance(e);
@@ -78,6 +79,14 @@ void sort_by_size(std::vector<Hole>& holes) {
   std::stable_sort(holes.begin(), holes.end(), [&](const Hole& g, const Hole& h) { return key(g) < key(h); });
 }
 
+std::vector<Hole> holes_at(const Mesh& mesh, const std::vector<BoundaryLoop>& loops,
+                           const std::vector<std::vector<std::uint32_t>>& doubtful) {
+  std::vector<Hole> holes = make_holes(mesh, loops);
+  for (const auto& triangles : doubtful) holes.push_back(doubtful_hole(mesh, triangles));
+  sort_by_size(holes);
+  return holes;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> Hole::vertices() const {
@@ -119,10 +128,7 @@ void double_triangles(Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
 }
 
 std::vector<Hole> find_holes(const Mesh& welded, const std::vector<std::vector<std::uint32_t>>& doubtful) {
-  std::vector<Hole> holes = make_holes(welded, boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles)));
-  for (const auto& triangles : doubtful) holes.push_back(doubtful_hole(welded, triangles));
-  sort_by_size(holes);
-  return holes;
+  return holes_at(welded, boundary_loops(welded), doubtful);
 }
 
 namespace {
@@ -130,26 +136,34 @@ namespace {
 // Measured steps for each point of a rim.
 constexpr std::uint64_t kHullWork = 100;
 
+// The surface of an open one and what closes it at its vertices.
+std::shared_ptr<const Surface> closed_surface(Mesh closed, const Surface& open) {
+  Surface surface = make_plain_surface(std::make_shared<const Mesh>(std::move(closed)));
+  surface.parts = open.parts;
+  return std::make_shared<const Surface>(std::move(surface));
+}
+
 Closing fill_holes(const Surface& open, Budget* budget) {
   Closing closing;
   Mesh closed = open.mesh;
   double_triangles(closed, open.sheets);
   turn(closed, open.facing.inward);
-  closing.holes = find_holes(closed, open.facing.doubtful);
+  std::call_once(open.rims->has_loops, [&] { open.rims->loops = boundary_loops(closed); });
+  closing.holes = holes_at(closed, open.rims->loops, open.facing.doubtful);
   for (const Hole& hole : closing.holes) {
     for (const BoundaryLoop& loop : hole.loops) {
       const std::vector<Triangle> triangles = fan(loop);
       closed.triangles.insert(closed.triangles.end(), triangles.begin(), triangles.end());
     }
   }
-  closing.surface = std::make_shared<const Surface>(make_surface(closed, true));
+  closing.surface = closed_surface(std::move(closed), open);
   closing.hulls = hulls_of(open.mesh, closing.holes, budget);
   return closing;
 }
 
 // A triangle and its reverse cancel in winding numbers, so the open parts become sheets. Closed patches within an
 // edge-connected part stay solid, unless they were turned beside a doubtful shell.
-Closing double_open_parts(const Surface& open) {
+std::vector<std::uint32_t> loose_triangles(const Surface& open) {
   const Mesh& welded = open.mesh;
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   const Labels parts = label_components(welded, edges), patches = label_manifold_patches(welded, edges);
@@ -162,13 +176,18 @@ Closing double_open_parts(const Surface& open) {
   for (const auto& part : open.facing.doubtful) {
     for (const std::uint32_t t : part) is_sheet[t] = true;
   }
-  std::vector<std::uint32_t> sheets;
+  std::vector<std::uint32_t> loose;
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
-    if (is_sheet[t]) sheets.push_back(t);
+    if (is_sheet[t]) loose.push_back(t);
   }
-  Mesh closed = welded;
-  double_triangles(closed, sheets);
-  return {std::make_shared<const Surface>(make_surface(closed, true)), {}, {}};
+  return loose;
+}
+
+Closing double_open_parts(const Surface& open) {
+  std::call_once(open.rims->has_loose, [&] { open.rims->loose = loose_triangles(open); });
+  Mesh closed = open.mesh;
+  double_triangles(closed, open.rims->loose);
+  return {closed_surface(std::move(closed), open), {}, {}};
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include <memory>
 #include <vector>
 
-#include "base/edge_table.hpp"
 #include "base/mesh.hpp"
 #include "mesh/surface.hpp"
 
@@ -21,7 +20,7 @@ namespace satcheck {
 using BoundaryLoop = std::vector<std::uint32_t>;
 
 // Their order depends only on the order of vertices and triangles.
-std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& edges);
+std::vector<BoundaryLoop> boundary_loops(const Mesh& welded);
 
 // Triangles that close the loop: a fan about its first vertex, against the direction of the loop.
 std::vector<Triangle> fan(const BoundaryLoop& loop);

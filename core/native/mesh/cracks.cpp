@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/edge_table.hpp"
 #include "base/key_sort.hpp"
 #include "base/patches.hpp"
 #include "mesh/boundary.hpp"
@@ -25,10 +24,6 @@ constexpr std::size_t kMostSplits = 16;
 constexpr std::size_t kMostVisits = 200;
 // Measured steps of a vertex that is held against an edge, or another vertex.
 constexpr std::uint64_t kVertexWork = 50;
-
-std::vector<BoundaryLoop> loops_of(const Mesh& welded) {
-  return boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles));
-}
 
 double distance(Vec3 p, Vec3 q) { return norm(q - p); }
 
@@ -177,14 +172,14 @@ std::size_t close_thin_loops(Mesh& welded, const std::vector<BoundaryLoop>& loop
 
 std::size_t seal_cracks(Mesh& welded, double width, Budget* budget) {
   if (!(width < kThinBeside * norm(bounds_of(welded.vertices).size()))) return 0;
-  const std::vector<BoundaryLoop> loops = loops_of(welded);
+  const std::vector<BoundaryLoop> loops = boundary_loops(welded);
   if (loops.empty()) return 0;
   Mesh sealed = welded;
   split_edges(sealed, loops, width, budget);
-  close_seams(sealed, loops_of(sealed), width, budget);
-  const std::vector<BoundaryLoop> left = loops_of(sealed);
+  close_seams(sealed, boundary_loops(sealed), width, budget);
+  const std::vector<BoundaryLoop> left = boundary_loops(sealed);
   close_thin_loops(sealed, left, width, budget);
-  const std::size_t open = loops_of(sealed).size();
+  const std::size_t open = boundary_loops(sealed).size();
   if (open >= loops.size()) return 0;
   welded = std::move(sealed);
   return loops.size() - open;

@@ -232,7 +232,7 @@ Mesh with_fills(const Mesh& welded, const EdgeTable& edges) {
   Mesh filled = welded;
   if (edges.is_balanced()) return filled;
   double_triangles(filled, flat_parts(welded));
-  for (const BoundaryLoop& loop : boundary_loops(filled, EdgeTable(filled.vertices.size(), filled.triangles))) {
+  for (const BoundaryLoop& loop : boundary_loops(filled)) {
     const std::vector<Triangle> fill = fan(loop);
     filled.triangles.insert(filled.triangles.end(), fill.begin(), fill.end());
   }

@@ -131,6 +131,7 @@ Surface refitted_surface(const Surface& like, Mesh mesh) {
   surface.open_parts = like.open_parts;
   surface.sheets = like.sheets;
   surface.facing = like.facing;
+  if (surface.mesh.triangles == like.mesh.triangles) surface.rims = like.rims;
   surface.refitted = true;
   return surface;
 }

@@ -28,6 +28,13 @@ struct LazyClosings {
   std::shared_ptr<const Surface> walled[2];
 };
 
+// What is the same of an open surface wherever its vertices lie. The first thread that needs it makes it.
+struct LazyRims {
+  std::once_flag has_loops, has_loose;
+  std::vector<std::vector<std::uint32_t>> loops;  // boundary_loops() of the surface whose sheets are doubled
+  std::vector<std::uint32_t> loose;               // the triangles without an inside if open parts are sheets
+};
+
 // The outline of a prism (mesh/outline.hpp). The first thread that needs it makes it.
 struct LazyOutline {
   std::once_flag once;
@@ -51,6 +58,7 @@ struct Surface {
   Facing facing;  // of a surface that is no solid; the rounding of a placement does not change it
   bool refitted = false;  // the tree has the form of another surface's
   OpenParts open_parts = OpenParts::filled;
+  std::shared_ptr<LazyRims> rims = std::make_shared<LazyRims>();
   std::shared_ptr<LazyClosings> closings = std::make_shared<LazyClosings>();
   std::shared_ptr<LazyOutline> outline = std::make_shared<LazyOutline>();
 };

@@ -1,6 +1,7 @@
 #include "mesh_pair/covers_once.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "base/key_sort.hpp"
 #include "exact/predicates.hpp"
@@ -40,8 +41,22 @@ constexpr std::uint32_t kOpposite = 26, kNoWay = 13;
 // Of triangles that are no wider than a crack, as those that close one: none.
 std::uint32_t way_of_wide(const Corners& c, double crack) {
   const Vec3 u = c[1] - c[0], v = c[2] - c[0];
-  const double longest = std::max({norm(u), norm(v), norm(c[2] - c[1])});
-  return norm(cross(u, v)) <= crack * longest ? kNoWay : way_of(c);
+  const double area = norm(cross(u, v));
+  const bool is_narrow = area == 0 || (crack > 0 && area <= crack * std::max({norm(u), norm(v), norm(c[2] - c[1])}));
+  return is_narrow ? kNoWay : way_of(c);
+}
+
+// Of the triangles in the order of the tree. Those of a batch are fetched at once: the memory is slower than the rest.
+std::vector<std::uint8_t> ordered_ways(const Surface& solid, double crack) {
+  const std::vector<std::uint32_t>& order = solid.bvh.order;
+  std::vector<std::uint8_t> ways(order.size());
+  std::array<Corners, 64> batch;
+  for (std::size_t first = 0; first < order.size(); first += batch.size()) {
+    const std::size_t count = std::min(batch.size(), order.size() - first);
+    for (std::size_t k = 0; k < count; ++k) batch[k] = corners(solid.mesh, order[first + k]);
+    for (std::size_t k = 0; k < count; ++k) ways[first + k] = static_cast<std::uint8_t>(way_of_wide(batch[k], crack));
+  }
+  return ways;
 }
 
 // The triangles near which others face the opposite way, by the signs of their normals. Most of a smooth surface faces
@@ -50,16 +65,16 @@ class OppositeWays {
  public:
   OppositeWays(const Surface& solid, double crack) : solid_(solid), ways_(solid.bvh.nodes.size()), opposite_(ways_.size()) {
     const auto& nodes = solid.bvh.nodes;
+    const std::vector<std::uint8_t> ways = ordered_ways(solid, crack);
     for (std::size_t n = nodes.size(); n-- > 0;) {  // children come after their parents
       if (!nodes[n].is_leaf()) {
         ways_[n] = ways_[nodes[n].first] | ways_[nodes[n].first + 1];
         opposite_[n] = opposite_[nodes[n].first] | opposite_[nodes[n].first + 1];
       }
       for (std::uint32_t i = nodes[n].first; i < nodes[n].first + nodes[n].count; ++i) {
-        const std::uint32_t way = way_of_wide(corners(solid.mesh, solid.bvh.order[i]), crack);
-        if (way == kNoWay) continue;
-        ways_[n] |= 1u << way;
-        opposite_[n] |= 1u << (kOpposite - way);
+        if (ways[i] == kNoWay) continue;
+        ways_[n] |= 1u << ways[i];
+        opposite_[n] |= 1u << (kOpposite - ways[i]);
       }
     }
   }

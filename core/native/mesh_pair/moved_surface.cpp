@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "base/numeric_range.hpp"
+#include "mesh/topology.hpp"
+#include "mesh/transform.hpp"
 
 namespace satcheck {
 namespace {
@@ -29,6 +31,15 @@ bool stays_in_range(const Surface& surface, Vec3 centre) {
 }
 
 }  // namespace
+
+Surface translated_surface(const Surface& still, Vec3 t) {
+  if (still.solid) {
+    MovedSurface moved(still);
+    require_in_range(moved.at(t).mesh.vertices, "moved vertex");
+    if (is_welded(moved.at(t).mesh)) return std::move(moved).take();
+  }
+  return refitted_surface(still, translate(still.mesh, t));
+}
 
 Vec3 exact_centre(const Surface& a, const Surface& b) {
   Aabb box = a.bvh.nodes[0].box;

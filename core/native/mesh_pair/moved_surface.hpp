@@ -15,7 +15,7 @@ class MovedSurface {
   // `still` must outlive this.
   explicit MovedSurface(const Surface& still)
       : still_(still), moved_mesh_(std::make_shared<Mesh>(still.mesh)), moved_(moved_mesh_) {
-    moved_.bvh = still.bvh;
+    moved_.bvh = {still.bvh.nodes, still.bvh.order, {}};  // a box of a triangle is made when one is asked for
     moved_.parts = still.parts;
     moved_.solid = still.solid;
     moved_.open_parts = still.open_parts;
@@ -24,18 +24,23 @@ class MovedSurface {
     if (!still.solid) closed_ = std::make_shared<MovedSurface>(*closing_of(still, OpenParts::filled)->surface);
   }
 
+  // The surface as it was moved last.
+  Surface take() && {
+    moved_.outline = std::make_shared<LazyOutline>();
+    return std::move(moved_);
+  }
+
   // The surface with t added to every coordinate, rounded once. Rounding keeps the order of coordinates, so the moved
   // boxes contain the moved triangles exactly. Valid until the next call.
   const Surface& at(Vec3 t, Budget* budget = nullptr) {
-    const auto move_box = [&](const Aabb& box) { return Aabb{box.min + t, box.max + t}; };
+    if (still_.solid && t == at_) return moved_;
+    at_ = t;
     for (std::size_t i = 0; i < still_.mesh.vertices.size(); ++i) {
       moved_mesh_->vertices[i] = still_.mesh.vertices[i] + t;
     }
     for (std::size_t i = 0; i < still_.bvh.nodes.size(); ++i) {
-      moved_.bvh.nodes[i].box = move_box(still_.bvh.nodes[i].box);
-    }
-    for (std::size_t i = 0; i < still_.bvh.boxes.size(); ++i) {
-      moved_.bvh.boxes[i] = move_box(still_.bvh.boxes[i]);
+      const Aabb& box = still_.bvh.nodes[i].box;
+      moved_.bvh.nodes[i].box = {box.min + t, box.max + t};
     }
     if (!still_.solid) moved_.closings = moved_closings(t, budget);
     return moved_;
@@ -55,8 +60,12 @@ class MovedSurface {
   const Surface& still_;
   std::shared_ptr<Mesh> moved_mesh_;
   Surface moved_;
+  std::optional<Vec3> at_;  // where it is
   std::shared_ptr<MovedSurface> closed_;  // of an open surface
 };
+
+// The surface with t added to every coordinate. If rounding has merged two vertices, it is built from scratch.
+Surface translated_surface(const Surface& still, Vec3 t);
 
 // A point near the meshes that can be subtracted from all their coordinates without rounding; 0 along an axis on which
 // the meshes are near the origin. Relative to it, coordinates are small: moving them rounds less, and far fewer signs

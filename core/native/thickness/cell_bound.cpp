@@ -139,7 +139,10 @@ class CellBound {
     auto lists = std::make_shared<PatchLists>();
     for (int body = 0; body < 2; ++body) {
       const PatchList* known = open_.near ? &near_to(body) : nullptr;
-      (*lists)[static_cast<std::size_t>(body)] = bodies_.patches_near(body, reach_of(body), budget_, known);
+      PatchList& list = (*lists)[static_cast<std::size_t>(body)];
+      list = bodies_.patches_near(body, reach_of(body), budget_, known);
+      if (bodies_.may_be_part(list)) continue;
+      for (const std::uint32_t i : list) near_boxes_[static_cast<std::size_t>(body)].push_back(bodies_.box(body, i));
     }
     open_.near = std::move(lists);
   }
@@ -270,9 +273,9 @@ class CellBound {
     double front = -INFINITY;
     const Aabb at{p, p};
     const double tie = bodies_.rounding();
-    const auto compare = [&](std::uint32_t i) {
+    const auto compare = [&](std::uint32_t i, const Aabb& box) {
       const double reach = best.depth + tie;
-      if (box_distance_squared(at, bodies_.box(body, i)) > reach * reach) return;
+      if (box_distance_squared(at, box) > reach * reach) return;
       budget_.spend(kDistanceWork);
       const Patch& patch = bodies_.patch(body, i);
       const double distance = bodies_.patches(body).distance(patch, p);
@@ -286,12 +289,12 @@ class CellBound {
     };
     // What was near to other points of the cell is likely to be near to this one.
     for (const Column& column : columns_) {
-      if (column.body == body) compare(column.patch);
+      if (column.body == body) compare(column.patch, bodies_.box(body, column.patch));
     }
     const PatchList& near = near_to(body);
-    if (near.size() < kManyPatches || bodies_.in_plane()) {
+    if (!bodies_.may_be_part(near)) {
       budget_.spend(kFilterWork * near.size());
-      for (const std::uint32_t i : near) compare(i);
+      for (std::size_t k = 0; k < near.size(); ++k) compare(near[k], near_boxes_[static_cast<std::size_t>(body)][k]);
     } else {
       const Surface& surface = bodies_.surface(body);
       std::optional<NearestPoint> known;
@@ -300,7 +303,7 @@ class CellBound {
       const auto is_near = [&](const Aabb& box) { return box_distance_squared(at, box) <= reach * reach; };
       visit_where(surface.bvh, surface.mesh, is_near, [&](std::uint32_t t) {
         const std::uint32_t i = bodies_.patches(body).patch_of[t];
-        if (i != kNoIndex) compare(i);
+        if (i != kNoIndex) compare(i, bodies_.box(body, i));
         return true;
       }, &budget_);
     }
@@ -374,6 +377,7 @@ class CellBound {
   Vec3 middle_;        // a point of the cell
   double radius_ = 0;  // no point of it is farther from there
   std::array<std::optional<bool>, 2> void_at_middle_;
+  std::array<std::vector<Aabb>, 2> near_boxes_;  // of near_to() a body, if these are all: each point is held against them
   std::optional<MatrixGame> game_;
   std::vector<Column> columns_;
   std::vector<double> values_;  // of each column at all corners

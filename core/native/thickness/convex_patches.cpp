@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <unordered_map>
 #include <utility>
 
 #include "base/edge_table.hpp"
@@ -30,7 +29,7 @@ constexpr std::size_t kMostBoxes = 65536;
 class Merging {
  public:
   Merging(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, double flatness)
-      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), normals_(triangles.size()) {
+      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), merged_(triangles.size()), normals_(triangles.size()) {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       const auto c = corners(mesh, triangles[i]);
       const Vec3 normal = rounded_normal(c[0], c[1], c[2]);
@@ -68,8 +67,8 @@ class Merging {
 
   // Vertices, of a set at its representative.
   Outline outline(std::uint32_t i) const {
-    const auto merged = merged_.find(i);
-    return merged == merged_.end() ? Outline(mesh_.triangles[triangles_[i]]) : Outline(merged->second);
+    const auto [first, count] = merged_[i];
+    return count == 0 ? Outline(mesh_.triangles[triangles_[i]]) : Outline(corners_).subspan(first, count);
   }
 
   std::vector<Seam> flat_seams() const {
@@ -103,7 +102,7 @@ class Merging {
     const Vec3 origin = mesh_.vertices[mesh_.triangles[triangles_[plane]][0]];
     double most = 0;
     for (const std::uint32_t v : outline) {
-      most = std::fmax(most, std::fabs(dot(normals_[plane], mesh_.vertices[v] - origin)));
+      most = larger(most, std::fabs(dot(normals_[plane], mesh_.vertices[v] - origin)));
     }
     return most;
   }
@@ -112,29 +111,28 @@ class Merging {
     const std::uint32_t p = sets_.find(seam.first), q = sets_.find(seam.second);
     if (p == q) return;
     const std::uint32_t kept = std::min(p, q);
-    std::vector<std::uint32_t> joined = joined_outline(outline(p), outline(q), seam);
-    if (joined.empty() || deviation(kept, joined) > flatness_) return;
-    if (!is_convex_at(joined, kept, seam.from) || !is_convex_at(joined, kept, seam.to)) return;
+    join(outline(p), outline(q), seam);
+    if (joined_.empty() || deviation(kept, joined_) > flatness_) return;
+    if (!is_convex_at(joined_, kept, seam.from) || !is_convex_at(joined_, kept, seam.to)) return;
     sets_.unite(p, q);
-    merged_[kept] = std::move(joined);
-    merged_.erase(std::max(p, q));
+    merged_[kept] = {static_cast<std::uint32_t>(corners_.size()), static_cast<std::uint32_t>(joined_.size())};
+    corners_.insert(corners_.end(), joined_.begin(), joined_.end());
   }
 
-  // Empty where they share more than the seam, or have too many corners.
-  static std::vector<std::uint32_t> joined_outline(Outline p, Outline q, const Seam& seam) {
-    if (p.size() + q.size() > kMostCorners + 2) return {};
+  // The outline of both; empty where they share more than the seam, or have too many corners.
+  void join(Outline p, Outline q, const Seam& seam) {
+    joined_.clear();
+    if (p.size() + q.size() > kMostCorners + 2) return;
     for (const std::uint32_t v : q) {
-      if (v != seam.from && v != seam.to && std::find(p.begin(), p.end(), v) != p.end()) return {};
+      if (v != seam.from && v != seam.to && std::find(p.begin(), p.end(), v) != p.end()) return;
     }
     // p runs from -> to, q runs to -> from.
-    std::vector<std::uint32_t> joined;
     const auto walk = [&](Outline loop, std::uint32_t start, std::uint32_t end) {
       auto at = static_cast<std::size_t>(std::find(loop.begin(), loop.end(), start) - loop.begin());
-      for (; loop[at % loop.size()] != end; ++at) joined.push_back(loop[at % loop.size()]);
+      for (; loop[at % loop.size()] != end; ++at) joined_.push_back(loop[at % loop.size()]);
     };
     walk(p, seam.to, seam.from);
     walk(q, seam.from, seam.to);
-    return joined;
   }
 
   bool is_convex_at(Outline outline, std::uint32_t plane, std::uint32_t vertex) const {
@@ -170,7 +168,8 @@ class Merging {
   const std::vector<std::uint32_t>& triangles_;
   double flatness_;
   DisjointSets sets_;
-  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> merged_;  // outlines of sets of several triangles, at their representatives
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> merged_;  // of sets of several triangles, at their representatives: first and count in corners_
+  std::vector<std::uint32_t> corners_, joined_;
   std::vector<Vec3> normals_;                       // of each triangle
 };
 

@@ -97,7 +97,7 @@ class Search {
       low = goal_.within->low - axes_ * centre_ - wider;
       high = goal_.within->high - axes_ * centre_ + wider;
     }
-    double half = INFINITY;
+    double half = goal_.most / 2;
     for (int axis = 0; axis < 3; ++axis) {
       if (!(high[axis] > low[axis])) return;
       if (axis != goal_.across) half = std::fmin(half, (high[axis] - low[axis]) / 2);

@@ -5,6 +5,7 @@
 // common point, and wherever it is smaller, the value is that of the surfaces: -2 max(e_A, e_B).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,6 +31,7 @@ struct ThicknessGoal {
   std::uint64_t work = 0;
   double less_a = 0, less_b = 0;  // e_A and e_B, world units
   std::optional<double> limit = {};  // the search ends as soon as the interval lies on one side of this length
+  double most = INFINITY;  // the thickness is known to be no more
   // An axis of the world along which both solids are prisms: triangles across it do not count; -1: none.
   int across = -1;
   bool prove = false;  // write down why no point lies deeper; not along an axis

@@ -97,21 +97,27 @@ void TwoBodies::make_patches(const Aabb& box, double reach, double flatness) {
 }
 
 PatchList TwoBodies::patches_at(int body, const Aabb& box, Budget& budget, std::size_t most) const {
-  // A bit for each patch: sorting the list takes longer.
-  std::vector<std::uint64_t> is_met(patches(body).patches.size() / 64 + 1, 0);
+  // A bit for each patch, and one for each word of these: sorting the list takes longer.
+  std::vector<std::uint64_t> is_met(patches(body).patches.size() / 64 + 1, 0), is_used(is_met.size() / 64 + 1, 0);
   const Surface& from = surface(body);
   std::size_t met = 0;
   visit_box(from.bvh, from.mesh, box, [&](std::uint32_t t) {
     const std::uint32_t i = patches(body).patch_of[t];
     if (i == kNoIndex) return true;
     is_met[i / 64] |= std::uint64_t{1} << (i % 64);
+    is_used[i / 4096] |= std::uint64_t{1} << (i / 64 % 64);
     return ++met < most;
   }, &budget);
   PatchList list;
-  for (std::uint32_t word = 0; word < is_met.size(); ++word) {
-    for (std::uint64_t bits = is_met[word]; bits != 0; bits &= bits - 1) {
-      list.push_back(64 * word + static_cast<std::uint32_t>(std::countr_zero(bits)));
+  const auto each_bit = [](const std::vector<std::uint64_t>& words, std::size_t word, auto visit) {
+    for (std::uint64_t bits = words[word]; bits != 0; bits &= bits - 1) {
+      visit(64 * word + static_cast<std::size_t>(std::countr_zero(bits)));
     }
+  };
+  for (std::size_t group = 0; group < is_used.size(); ++group) {
+    each_bit(is_used, group, [&](std::size_t word) {
+      each_bit(is_met, word, [&](std::size_t i) { list.push_back(static_cast<std::uint32_t>(i)); });
+    });
   }
   return list;
 }

@@ -12,12 +12,8 @@ namespace {
 
 Mesh tetrahedron() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}; }
 
-std::vector<BoundaryLoop> loops_of(const Mesh& mesh) {
-  return boundary_loops(mesh, EdgeTable(mesh.vertices.size(), mesh.triangles));
-}
-
 void closed_meshes_have_none() {
-  CHECK(loops_of(tetrahedron()).empty());
+  CHECK(boundary_loops(tetrahedron()).empty());
   CHECK(find_holes(tetrahedron()).empty());
 }
 
@@ -26,10 +22,10 @@ void a_missing_triangle_is_a_loop_of_three() {
     Mesh mesh = tetrahedron();
     const Triangle gone = mesh.triangles[missing];
     mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(missing));
-    const auto loops = loops_of(mesh);
+    const auto loops = boundary_loops(mesh);
     CHECK(loops.size() == 1 && loops[0].size() == 3);
     mesh.triangles.push_back(fan(loops[0])[0]);
-    CHECK(loops_of(mesh).empty());
+    CHECK(boundary_loops(mesh).empty());
     for (const std::uint32_t v : loops[0]) CHECK(v == gone[0] || v == gone[1] || v == gone[2]);
   }
 }
@@ -37,7 +33,7 @@ void a_missing_triangle_is_a_loop_of_three() {
 void a_turned_triangle_is_two_loops_in_one_hole() {
   Mesh mesh = tetrahedron();
   std::swap(mesh.triangles[2][1], mesh.triangles[2][2]);
-  CHECK(loops_of(mesh).size() == 2);
+  CHECK(boundary_loops(mesh).size() == 2);
   CHECK(find_holes(mesh).size() == 1);
   CHECK(close_surface(make_surface(mesh, false), OpenParts::filled).surface->solid);
 }
@@ -46,16 +42,16 @@ void loops_that_share_a_vertex_are_one_hole() {
   // Two triangles that are missing from an octahedron and share a corner.
   Mesh mesh{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
             {{4, 0, 2}, {4, 2, 1}, {4, 1, 3}, {4, 3, 0}, {5, 2, 0}, {5, 1, 2}, {5, 3, 1}, {5, 0, 3}}};
-  CHECK(loops_of(mesh).empty());
+  CHECK(boundary_loops(mesh).empty());
   mesh.triangles.erase(mesh.triangles.begin() + 2);
   mesh.triangles.erase(mesh.triangles.begin());
-  CHECK(loops_of(mesh).size() == 2);
+  CHECK(boundary_loops(mesh).size() == 2);
   CHECK(find_holes(mesh).size() == 1);
 }
 
 void a_flat_part_is_a_sheet_and_no_hole() {
   const Mesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  CHECK(loops_of(square).size() == 1);
+  CHECK(boundary_loops(square).size() == 1);
   Mesh doubled = square;
   double_triangles(doubled, flat_parts(square));
   CHECK(find_holes(doubled).empty());
