@@ -22,6 +22,8 @@ _NOT_UTF8 = b"\\udc"
 Read = TypeVar("Read")
 _IN_A_PIECE = 100  # elements of a list
 _ASSETS_IN_A_PIECE = 10
+# At the end of a line. No string has a line end in it, so this is a number.
+_NEGATIVE_ZERO = re.compile(rb"-0\.0(?=,?$)", re.MULTILINE)
 # In compact JSON. A quote in a string has a backslash before it, so this is a member, and the
 # first one of no object.
 _TIMES = re.compile(rb',"microseconds":[^,}]*')
@@ -164,9 +166,7 @@ def _text(value: Any) -> str:
         text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT)
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
         text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False).encode()
-    # No string has a line end in it, so what stands before one is a number.
-    text = text.replace(b"-0.0,\n", b"0.0,\n").replace(b"-0.0\n", b"0.0\n")
-    return escaped(text.decode())
+    return escaped(_NEGATIVE_ZERO.sub(b"0.0", text).decode())
 
 
 def escaped(text: str) -> str:
