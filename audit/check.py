@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
+from contextlib import ExitStack
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -124,16 +124,18 @@ def check_meshes_of(scene: Scene, settings: Settings) -> Finding:
     scene = _loaded(scene, settings)
     bodies = place(scene, settings)
     planner = Planner(settings, bodies.book)
-    examined: dict[IndexPair, CheckedPair] = {}
+    finding = None
     if len(bodies.placed) == 2:
         a, b = bodies.placed.values()
-        reach = planner.reach({0: a.resolution, 1: b.resolution})
-        if core.box_gap(a.bounds, b.bounds) <= sum(reach):
+        limit = planner.gap_limit(0, 1, a.resolution + b.resolution)
+        if core.box_gap(a.bounds, b.bounds) <= limit:
             request = planner.request(0, 1)
-            with _tools(settings, [request]) as tools:
+            with ExitStack() as stack:
+                tools = _tools(stack, settings, [request])
                 pair = Pair(a, b, settings, request, *tools, alone=True)
-                examined[0, 1] = examine_pair(pair)
-    (finding,) = _findings(bodies, [*examined], [*examined.values()], planner)
+                finding = examine_pair(pair).finding
+    if finding is None:
+        (finding,) = _findings(bodies, [], [], planner)
     return replace(finding, message=finding_message(finding, empty_report(settings)))
 
 
@@ -275,7 +277,7 @@ def _examined(
     most_meetings = ENOUGH_FAILURES + MEETINGS_OF_BODY * len(bodies.ids)
     budget, blocks = StepsOfScene(), close.blocks(BLOCK)
     block, after = next(blocks, []), next(blocks, [])
-    total = close.count() if after else len(block)
+    total = close.count() if after and progress is not None else len(block)
     while block and failures < ENOUGH_FAILURES and meetings < most_meetings:
         told = None if progress is None else _counting_on(progress, len(pairs), total)
         kept = keep or bool(after)
@@ -293,7 +295,7 @@ def _examined(
             for i in {i for i, _ in block} - {after[0][0]}:
                 bodies.placed[i].release()
         block, after = after, next(blocks, [])
-    return pairs, examined, total - len(examined)
+    return pairs, examined, close.count() - len(examined) if block else 0
 
 
 def _counting_on(progress: Progress, before: int, total: int) -> Progress:
@@ -313,7 +315,8 @@ def _examined_together(
 ) -> list[CheckedPair]:
     settings = planner.settings
     requests = [planner.request(i, j) for i, j in close]
-    with _tools(settings, requests) as tools:
+    with ExitStack() as stack:
+        tools = _tools(stack, settings, requests)
         alone = len(close) == 1 and not keep
         pairs = [
             Pair(bodies.placed[i], bodies.placed[j], settings, request, *tools, alone=alone)
@@ -324,21 +327,19 @@ def _examined_together(
         return examine_pairs(pairs, settings.jobs, progress, budget=budget, keep=keep)
 
 
-@contextmanager
 def _tools(
-    settings: Settings, requests: Sequence[Request]
-) -> Iterator[tuple[VolumeMeter | None, Peers | None]]:
-    """The other libraries that pairs with these requests need."""
-    with ExitStack() as stack:
-        meter = peers = None
-        if any(request.wants("volume") for request in requests):
-            meter = stack.enter_context(volume_meter(settings))
-        if settings.cross_check:
-            from satcheck.core.peers import Peers
+    stack: ExitStack, settings: Settings, requests: Sequence[Request]
+) -> tuple[VolumeMeter | None, Peers | None]:
+    """Return the other libraries that pairs with these requests need, until the stack closes."""
+    meter = peers = None
+    if any(request.wants("volume") for request in requests):
+        meter = stack.enter_context(volume_meter(settings))
+    if settings.cross_check:
+        from satcheck.core.peers import Peers
 
-            seconds, megabytes = settings.cross_check_seconds, settings.cross_check_megabytes
-            peers = stack.enter_context(Peers(seconds=seconds, megabytes=megabytes))
-        yield meter, peers
+        seconds, megabytes = settings.cross_check_seconds, settings.cross_check_megabytes
+        peers = stack.enter_context(Peers(seconds=seconds, megabytes=megabytes))
+    return meter, peers
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:

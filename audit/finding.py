@@ -7,7 +7,6 @@ An overlap has no gap, so it keeps no clearance. What decides `touching` is `rep
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import nullcontext
 from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
@@ -43,9 +42,6 @@ OPEN_BAND = "undecided: whether that is within the tolerance"
 OPEN_GAP = "the gap is not known: measuring it takes too many steps"
 
 
-_NOTHING_AHEAD = nullcontext()
-
-
 def _find_part_pairs(draft: Draft) -> None:
     from satcheck.audit.stages.part_pairs import find_part_pairs  # a check without parts is faster
 
@@ -70,7 +66,7 @@ def examine(draft: Draft, climb: Climb | None = None) -> Finding:
     settle(draft, climb)
     undecided = why_open(draft)
     if undecided is None:
-        with thickness_ahead(draft) if draft.pair.alone else _NOTHING_AHEAD:
+        with thickness_ahead(draft):
             if draft.exact in OVERLAPS:
                 undecided = _find_overlap(draft)
             else:

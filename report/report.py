@@ -248,11 +248,14 @@ class Finding(Value, frozen=True, kw_only=True):
     baseline_state: BaselineState | None = None
 
     def __post_init__(self) -> None:
-        figures = [self.tolerance, self.distance, self.depth, self.volume, self.volume_error]
-        for bounds in (self.depth_bounds, self.distance_bounds, self.thickness_bounds):
-            figures += bounds or ()
-        for vector in (self.normal, self.mtv):
-            figures += vector or ()
+        figures = (
+            *(self.tolerance, self.distance, self.depth, self.volume, self.volume_error),
+            *(self.depth_bounds or ()),
+            *(self.distance_bounds or ()),
+            *(self.thickness_bounds or ()),
+            *(self.normal or ()),
+            *(self.mtv or ()),
+        )
         if not all(map(math.isfinite, filter(None, figures))):
             raise ValueError(f"the figures of a pair are finite numbers: {figures}")
 

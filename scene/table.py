@@ -49,8 +49,7 @@ class Table(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_
                 for other in others:
                     if getattr(self, other) is not None:
                         raise Wrong(f'remove this key, or "{key}": they exclude each other', other)
-        given = [key for key in self.one_of if getattr(self, key) is not None]
-        if self.one_of and len(given) != 1:
+        if self.one_of and sum(getattr(self, key) is not None for key in self.one_of) != 1:
             raise Wrong(f"exactly one of {', '.join(self.one_of)} is required")
 
     def stated(self) -> dict[str, Any]:

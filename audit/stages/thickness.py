@@ -8,8 +8,8 @@ thread beside that for the depth, if the pair is the only one: other pairs leave
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager, closing, nullcontext
 from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
@@ -29,6 +29,7 @@ STAGE = "thickness"
 # Both searches need memory for each triangle. If the bodies have more triangles, one search runs
 # after the other.
 MOST_TRIANGLES = 1_000_000
+_NOTHING_AHEAD = nullcontext()
 
 
 def why_not_thick(pair: Pair) -> str | None:
@@ -182,7 +183,7 @@ class _Ahead:
         assert self._outcome is not None
         return self._outcome
 
-    def stop(self) -> None:
+    def close(self) -> None:
         self._stopped = True
         self._thread.join()
 
@@ -198,26 +199,20 @@ class _Ahead:
             raise StoppedError
 
 
-@contextmanager
-def thickness_ahead(draft: Draft) -> Iterator[None]:
-    """Begin to search the thickness of an overlap of which the depth is searched, if it is long to
-    search. draft: of the only pair."""
-    pair = draft.pair
-    both = pair.request.wants("depth") and pair.request.wants("thickness")
+def thickness_ahead(draft: Draft) -> AbstractContextManager[object]:
+    """Begin to search the thickness of an overlap of which the depth is searched, if the pair is
+    the only one, and long to search."""
+    pair, wants = draft.pair, draft.pair.request.wants
+    both = pair.alone and wants("depth") and wants("thickness")
     if not (both and draft.exact in OVERLAPS and _is_worth_a_thread(pair)):
-        yield
-        return
+        return _NOTHING_AHEAD
     pair.a.surface(), pair.b.surface()  # made once, for both searches
     try:
         ahead = _Ahead(pair)
     except RuntimeError:  # the system grants no more threads
-        yield
-        return
+        return _NOTHING_AHEAD
     draft.ahead = ahead.result
-    try:
-        yield
-    finally:
-        ahead.stop()
+    return closing(ahead)
 
 
 def _is_worth_a_thread(pair: Pair) -> bool:
