@@ -29,8 +29,8 @@ from satcheck.report.report import Finding, Issue
 LEAST_SHARE = 1 / 8
 # Steps for what the searches do not count, such as hulls and the proof of a way out: for a pair,
 # and for each of its triangles. More if that proof takes more.
-STEPS_OF_PAIR = 400_000
-STEPS_OF_TRIANGLE = 1_000
+UNCOUNTED_OF_PAIR = 400_000
+UNCOUNTED_OF_TRIANGLE = 1_000
 
 
 def with_figures(
@@ -81,7 +81,7 @@ def _measured(finding: Finding, draft: Draft, share: int) -> tuple[CheckedPair, 
         checked = CheckedPair(finding, draft=draft)
     except Exception as error:  # noqa: BLE001  what was proven before it stands
         checked = replace(failed(draft, error), finding=finding)
-    steps = STEPS_OF_PAIR + STEPS_OF_TRIANGLE * pair.triangles
+    steps = UNCOUNTED_OF_PAIR + UNCOUNTED_OF_TRIANGLE * pair.triangles
     return checked, draft.work - before + max(steps, draft.pair.moved_steps)
 
 

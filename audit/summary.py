@@ -22,6 +22,7 @@ from satcheck.report.report import (
     EFFECTS,
     ENOUGH_FAILURES,
     MEETINGS_OF_BODY,
+    NO_ANSWER,
     NOTHING_TO_CHECK,
     NOTHING_TO_COMPARE,
     OVERLAPS,
@@ -68,7 +69,6 @@ NO_OVERLAP = "no overlap"
 OVERLAP = "overlap"
 FAR = "further apart than asked about"
 FAILED = "not decided"
-NO_ANSWER = "no answer"
 
 
 def tool() -> Tool:

@@ -67,7 +67,7 @@ def test_the_deepest_boxes_are_measured_before_the_budget_ends(
 ) -> None:
     scene = boxes(tmp_path)
     budget = Settings().work
-    monkeypatch.setattr(figures, "STEPS_OF_PAIR", budget)
+    monkeypatch.setattr(figures, "UNCOUNTED_OF_PAIR", budget)
     report = check(scene)
     assert measured(report) == {"b2 b3"}
     assert depth_of(report)[BEYOND_BUDGET] == 3
