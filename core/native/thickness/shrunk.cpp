@@ -26,7 +26,12 @@ constexpr double kShort = 1 - 1e-6;
 // sides.
 constexpr double kShare = 0.57;
 // A triangle narrower than this share of its length, and than a vertex may move, is no side, as those that close cracks.
-constexpr double kNarrow = 0x1p-10;
+// The sides of a long and finely faceted shaft are wider.
+constexpr double kNarrow = 0x1p-13;
+// Few cracks of float32 are wider, as a share of the largest coordinate.
+constexpr double kCrack = 0x1p-17;
+// Triangles near a corner of such a one that are looked at: more are facets finer than the length.
+constexpr int kMostNear = 64;
 
 void add(std::vector<Vec3>& normals, Vec3 normal) {
   for (const Vec3 known : normals) {
@@ -50,10 +55,10 @@ Vec3 inwards(const std::vector<Vec3>& normals) {
 }
 
 // The normal of a side; empty if the triangle is none.
-std::optional<Vec3> side(const Corners& c, double most) {
+std::optional<Vec3> side(const Corners& c, double width) {
   const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
   const double twice_area = norm(normal), longest = std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
-  if (!(twice_area > std::min(most, kNarrow * longest) * longest)) return std::nullopt;
+  if (!(twice_area > std::min(width, kNarrow * longest) * longest)) return std::nullopt;
   return normal * (1 / twice_area);
 }
 
@@ -66,11 +71,14 @@ Surface shrunk(const Surface& surface, double most, const Aabb& other) {
     for (const std::uint32_t v : mesh.triangles[t]) moves[v] = true;
     return true;
   });
+  double farthest = 0;
+  for (const Vec3 v : mesh.vertices) farthest = std::max({farthest, std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+  const double width = std::min(most, kCrack * farthest);
   std::unordered_map<std::uint32_t, std::vector<Vec3>> normals;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& vertices = mesh.triangles[t];
     if (std::none_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return moves[v]; })) continue;
-    const std::optional<Vec3> normal = side(corners(mesh, t), most);
+    const std::optional<Vec3> normal = side(corners(mesh, t), width);
     for (const std::uint32_t v : vertices) {
       if (!normal) is_loose[v] = true;
       if (normal && moves[v]) add(normals[v], *normal);
@@ -81,11 +89,12 @@ Surface shrunk(const Surface& surface, double most, const Aabb& other) {
     Vec3& v = moved.vertices[vertex];
     const Vec3 reach = Vec3{1, 1, 1} * most;
     if (is_loose[vertex]) {
+      int seen = 0;
       visit_box(surface.bvh, mesh, {v - reach, v + reach}, [&](std::uint32_t t) {
         const Corners c = corners(mesh, t);
-        const std::optional<Vec3> normal = side(c, most);
+        const std::optional<Vec3> normal = side(c, width);
         if (normal && norm(nearest_on_triangle(v, c) - v) <= most) add(here, *normal);
-        return true;
+        return ++seen < kMostNear;
       });
     }
     Vec3 way = inwards(here) * (kShare * most);
